@@ -46,7 +46,7 @@ EFFECTS = {
     "journal_orbit": (["journal_motion", "journal_orbit"], ["bearing_turn:follow_journal"]),
     "bearing_asperity": ([], ["bearing_asperity:new_touch", "bearing_asperity:share_bearing",
                               "bearing_asperity:asperity_forces"]),
-    "belt_pull": ([], ["camshaft:share_pull"]),
+    "belt_pull": ([], ["camshaft:pull_loads"]),
     "gas_force": (["gas"], []),
     "friction_modifier": ([], ["asperity:coverage"]),
     "boundary_law": (["boundary_law"], []),

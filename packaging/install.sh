@@ -2,7 +2,7 @@
 # Build the optimised program and install it below a prefix: PREFIX/bin/camroller. For packages; no network, no .venv.
 #
 # Usage: packaging/install.sh PREFIX      with gfortran, fpm, pkg-config, HDF5 with Fortran, OpenBLAS; FPM names another fpm, and
-#                                         FFLAGS, which builders of packages set, stands in the place of -O3 -g
+#                                         FFLAGS, which builders of packages set, stands in the place of -O3 -g1
 # Works on a copy in build/package without the tests, whose library fpm would fetch.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -17,5 +17,5 @@ mkdir -p build/package
 cp -r src app include build/package
 sed -e '/^\[dev-dependencies\]/,/^$/d' -e '/^\[\[test\]\]/,/^$/d' -e '/^\[\[example\]\]/,/^$/d' fpm.toml > build/package/fpm.toml
 cd build/package
-"$fpm" install --flag "-std=f2018 ${FFLAGS:--O3 -g} -ffp-contract=off" --prefix "$prefix"
+"$fpm" install --flag "-std=f2018 ${FFLAGS:--O3 -g1} -ffp-contract=off" --prefix "$prefix"
 "$prefix/bin/camroller" --version

@@ -9,7 +9,6 @@ module camroller_bearing_turn
    use camroller_bearing_asperity, only : bearing_state_t, carry_load
    use camroller_bearing_heat, only : bearing_heat_t, check_bearing_heat, direct_advice, oil_flow, temperature_rise
    use camroller_case, only : case_t
-   use camroller_camshaft, only : share_force, share_pull
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
    use camroller_journal, only : journal_solved, journal_t, new_journal
    use camroller_journal_motion, only : moving_state
@@ -126,21 +125,10 @@ contains
       !> The load
       type(cams_load_t), intent(out) :: load
 
-      ! What the bearings take of a force [N]
-      real(wp) :: loads(2, bearing_number(solved%shaft))
-      integer :: cam
-
       load%solved => solved
-      associate (shaft => solved%shaft, places => solved%shaft%bearings%bearing_positions)
-         allocate (load%shares(size(shaft%lobes)))
-         do cam = 1, size(shaft%lobes)
-            loads = 0.0_wp
-            if (shaft%shafts(cam) == k) call share_force(places, shaft%bearings%cam_positions(cam), [1.0_wp, 0.0_wp], loads)
-            load%shares(cam) = loads(1, bearing)
-         end do
-         loads = 0.0_wp
-         if (allocated(shaft%pull)) call share_pull(places, shaft%pull, loads)
-         load%pull = loads(:, bearing)
+      associate (shaft => solved%shaft)
+         load%shares = merge(shaft%shares(bearing, :), 0.0_wp, shaft%shafts == k)
+         load%pull = shaft%pull(:, bearing)
       end associate
    end subroutine set_load
 

@@ -12,18 +12,17 @@ module camroller_shaft
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, load_stops, state_at
-   use camroller_lobe_curve, only : lobe_curve_t, add_piece, close_curve, contact_near, curve_at, curve_values, cam_values, &
-      & halve_pieces, keep_state, move_curve, piece_angle, start_curve
+   use camroller_lobe_curve, only : lobe_curve_t, contact_near, curve_at, curve_values, cam_values
    use camroller_effect_list, only : effect_bearing_heat, effect_orbit, has_effect
    use camroller_events, only : cycle_stops
    use camroller_journal_orbit, only : orbit_t, place_at
-   use camroller_panels, only : panel_places, panel_points
+   use camroller_refined_curve, only : follow_steps, refine_curve
    use camroller_torque_list, only : torque_count, of_bearings, of_shaft_drag
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_solved
    use camroller_journal_motion, only : moving_state
    use camroller_bearing_asperity, only : touch_t, bearing_state_t, new_touch, carry_load
    use camroller_bearing_heat, only : oil_flow
-   use camroller_camshaft, only : belt_pull_t, share_force, share_pull
+   use camroller_camshaft, only : bearing_shares, pull_loads
    use camroller_shaft_drag, only : shaft_drag_t, check_shaft_drag, find_shaft_drag
    implicit none
    private
@@ -47,9 +46,11 @@ module camroller_shaft
       !> Bearings; allocated where the case has them
       type(cam_bearings_t), allocatable :: bearings
       type(journal_t), allocatable :: journal
-      !> Their surfaces, and the pull of belt or chain; allocated where the case has them
+      !> Part of each cam's force that each bearing of its camshaft carries, shape (bearing, cam) [-]; loads by the pull of belt or
+      !> chain, zero without it, shape (2, bearing) [N]
+      real(wp), allocatable :: shares(:, :), pull(:, :)
+      !> Their surfaces; allocated where the case has them
       type(touch_t), allocatable :: touch
-      type(belt_pull_t), allocatable :: pull
       !> Torque of seals and drive over speed and temperature, allocated where the case has it
       type(shaft_drag_t), allocatable :: drag_table
       !> That torque on each camshaft, zero without it [N m]
@@ -120,10 +121,10 @@ contains
       shaft%hints = 1
       call find_twins(shaft)
       shaft%has_torque = torque_rows(case)
+      call share_loads(shaft, case)
       allocate (shaft%journal)
       call set_journal(shaft, viscosity, speed, error)
       if (allocated(error)) return
-      if (allocated(case%belt_pull)) shaft%pull = case%belt_pull
       if (allocated(case%shaft_drag)) then
          call check_shaft_drag(case%shaft_drag, error)
          if (allocated(error)) return
@@ -135,6 +136,25 @@ contains
       allocate (shaft%touch)
       call new_touch(shaft%touch, case%bearing_asperity, case%cam_bearings%radial_clearance, error)
    end subroutine new_shaft
+
+   !> What each bearing carries of the force on each cam, and of the pull of belt or chain.
+   pure subroutine share_loads(shaft, case)
+      !> The shaft
+      type(shaft_t), intent(inout) :: shaft
+      !> The case
+      type(case_t), intent(in) :: case
+
+      integer :: cam
+
+      associate (places => case%cam_bearings%bearing_positions, cams => case%cam_bearings%cam_positions)
+         allocate (shaft%shares(size(places), size(cams)), shaft%pull(2, size(places)), shaft%loads(2, size(places)))
+         do cam = 1, size(cams)
+            shaft%shares(:, cam) = bearing_shares(places, cams(cam))
+         end do
+         shaft%pull = 0.0_wp
+         if (allocated(case%belt_pull)) shaft%pull = pull_loads(places, case%belt_pull)
+      end associate
+   end subroutine share_loads
 
    !> Find the cams that do the same, and make room.
    pure subroutine find_twins(shaft)
@@ -239,74 +259,6 @@ contains
       end do
    end subroutine refine_curves
 
-   !> Make the curve of a flexible train, with a piece for each of its steps: no contact is lost or met within one.
-   subroutine follow_steps(model, cycle, curve, error)
-      !> Model of the lobe shape
-      type(model_t), intent(in) :: model
-      !> Its cycle
-      type(cycle_t), intent(in) :: cycle
-      !> Its curve
-      type(lobe_curve_t), intent(out) :: curve
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(state_t) :: state
-      integer :: step, point, hint
-
-      associate (path => cycle%trajectory)
-         call start_curve(curve, path%time(1), path%count - 1, .true.)
-         do step = 1, path%count - 1
-            if (.not. path%time(step + 1) > path%time(step)) cycle
-            do point = 1, panel_points
-               hint = step
-               call state_at(cycle, model, path%time(step) + panel_places(point)*(path%time(step + 1) - path%time(step)), hint, &
-                  & state, error)
-               if (allocated(error)) return
-               call keep_state(curve, model, state, point)
-            end do
-            call add_piece(curve, path%time(step + 1))
-         end do
-      end associate
-      call close_curve(curve, cycle%tolerance)
-   end subroutine follow_steps
-
-   !> Halve the pieces of a follower's curve that are not good enough.
-   subroutine refine_curve(model, cycle, curve, error)
-      !> Model of the lobe shape
-      type(model_t), intent(in) :: model
-      !> Its cycle
-      type(cycle_t), intent(in) :: cycle
-      !> Its curve
-      type(lobe_curve_t), intent(inout) :: curve
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Times that a piece is halved: what is left of a kink is a small part of the turn
-      integer, parameter :: most_halvings = 6
-      type(state_t) :: state
-      type(lobe_curve_t) :: halved
-      integer, allocatable :: halves(:)
-      ! Cam angle from full lift [rad]
-      real(wp) :: angle
-      integer :: pass, i, point, hint
-
-      hint = 1
-      do pass = 1, most_halvings
-         call halve_pieces(curve, halved, halves)
-         if (size(halves) == 0) return
-         do i = 1, size(halves)
-            do point = 1, panel_points
-               angle = piece_angle(halved, halves(i), point)
-               call state_at(cycle, model, angle, hint, state, error, contact_near(curve, angle))
-               if (allocated(error)) return
-               call keep_state(halved, model, state, point, halves(i))
-            end do
-         end do
-         call move_curve(halved, curve)
-         call close_curve(curve, cycle%tolerance)
-      end do
-   end subroutine refine_curve
-
    !> Torques at a cam angle.
    subroutine shaft_torques(solved, angle, torques, error, cams, bearings)
       !> The solved case; its search hints move
@@ -317,7 +269,8 @@ contains
       real(wp), intent(out) :: torques(:, :)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
-      !> What each cam takes from its follower there, shape (value, cam) [N m, N]; without it the curves say so
+      !> What each cam takes from its follower there, shape (value, cam); those of twins are not used [N m, N]; without it the
+      !> curves say so
       real(wp), intent(in), optional :: cams(:, :)
       !> States of the bearings, shape (bearing, camshaft)
       type(bearing_state_t), intent(out), optional :: bearings(:, :)
@@ -326,25 +279,42 @@ contains
       real(wp) :: values(curve_values), forces(2, size(solved%shaft%lobes))
       integer :: cam
 
-      torques = 0.0_wp
       associate (shaft => solved%shaft)
-         do cam = 1, size(shaft%lobes)
-            if (present(cams)) then
-               values = cams(:, cam)
-            else if (shaft%twins(cam) < cam) then
-               values = shaft%values(:, shaft%twins(cam))
-            else
+         if (present(cams)) then
+            call add_cams(shaft, cams, torques, forces)
+         else
+            do cam = 1, size(shaft%lobes)
+               if (shaft%twins(cam) < cam) cycle
                call cam_at(solved, cam, angle, values, error)
                if (allocated(error)) return
                shaft%values(:, cam) = values
-            end if
-            torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + values(:torque_count)
-            forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))
-         end do
+            end do
+            call add_cams(shaft, shaft%values, torques, forces)
+         end if
          call bearing_torques(shaft, forces, torques(of_bearings, :), error, bearings, angle)
          torques(of_shaft_drag, :) = shaft%drag
       end associate
    end subroutine shaft_torques
+
+   !> Torques of the followers of each camshaft together, and the force on each cam in the frame of the first follower.
+   pure subroutine add_cams(shaft, cams, torques, forces)
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
+      !> What each cam takes from its follower, shape (value, cam); those of twins are not used [N m, N]
+      real(wp), intent(in) :: cams(:, :)
+      !> The torques [N m], last the energy residual [W], shape (torque, camshaft), and the forces, shape (2, cam) [N]
+      real(wp), intent(out) :: torques(:, :), forces(:, :)
+
+      integer :: cam
+
+      torques = 0.0_wp
+      do cam = 1, size(shaft%lobes)
+         associate (values => cams(:, shaft%twins(cam)), k => shaft%shafts(cam))
+            torques(:, k) = torques(:, k) + values(:torque_count)
+            forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))
+         end associate
+      end do
+   end subroutine add_cams
 
    !> Torques and force of one cam at an angle of the first one: from the curve of the lobe shape where that is good enough.
    subroutine cam_at(solved, cam, angle, values, error)
@@ -415,15 +385,18 @@ contains
 
       torques = 0.0_wp
       if (.not. allocated(shaft%journal)) return
-      if (.not. allocated(shaft%loads)) allocate (shaft%loads(2, bearing_number(shaft)))
-      associate (places => shaft%bearings%bearing_positions, loads => shaft%loads)
+      associate (loads => shaft%loads)
          do k = 1, shaft%count
-            loads = 0.0_wp
+            loads = shaft%pull
             do cam = 1, size(shaft%lobes)
-               if (shaft%shafts(cam) == k) call share_force(places, shaft%bearings%cam_positions(cam), forces(:, cam), loads)
+               if (shaft%shafts(cam) /= k) cycle
+               do bearing = 1, size(loads, 2)
+                  if (.not. abs(shaft%shares(bearing, cam)) > 0.0_wp) cycle
+                  loads(1, bearing) = loads(1, bearing) + shaft%shares(bearing, cam)*forces(1, cam)
+                  loads(2, bearing) = loads(2, bearing) + shaft%shares(bearing, cam)*forces(2, cam)
+               end do
             end do
-            if (allocated(shaft%pull)) call share_pull(places, shaft%pull, loads)
-            do bearing = 1, size(places)
+            do bearing = 1, size(loads, 2)
                if (present(angle) .and. (allocated(shaft%warm) .or. allocated(shaft%orbits))) then
                   call state_of_turn(shaft, bearing, k, angle, loads(:, bearing), state, status)
                else

@@ -273,23 +273,24 @@ contains
 
       type(search_t) :: search
       type(kept_rows_t) :: kept
-      ! Stops of all cams, with points near them and those that tell how torques run [rad]; a row, larger error of smallest and
-      ! largest value [unit of the series]
-      real(wp), allocatable :: stops(:), angles(:)
+      ! Points that tell how torques of a shape run; stops of all cams, with points near them and those that tell [rad]; a row,
+      ! larger error of smallest and largest value [unit of the series]
+      real(wp), allocatable :: points(:), stops(:), angles(:)
       real(wp), dimension(size(lowest)) :: values, errors
-      integer :: i, residual, series, sense
+      integer :: i, lobe, residual, series, sense
 
       ! It is rounding, of which the rows show enough
       residual = find_quantity(list, trim(torque_series(of_residual)))
       errors = 0.0_wp
       allocate (stops(0), angles(0))
-      do i = 1, size(solved%shaft%lobes)
-         ! Cams that do the same stop at the same angles
-         if (solved%shaft%twins(i) /= i) cycle
-         associate (lobe => solved%shaft%lobes(i), phase => solved%shaft%phases(i))
-            stops = [stops, solved%cycles(lobe)%stops + phase]
-            angles = [angles, points_of(statistics(lobe), list) + phase]
-         end associate
+      do lobe = 1, size(statistics)
+         points = points_of(statistics(lobe), list)
+         do i = 1, size(solved%shaft%lobes)
+            ! Cams that do the same stop at the same angles
+            if (solved%shaft%lobes(i) /= lobe .or. solved%shaft%twins(i) /= i) cycle
+            stops = [stops, solved%cycles(lobe)%stops + solved%shaft%phases(i)]
+            angles = [angles, points + solved%shaft%phases(i)]
+         end do
       end do
       angles = [stops - near, stops + near, angles]
       stops = [stops - beside_jump, stops, stops + beside_jump]
@@ -387,8 +388,6 @@ contains
       kept%angles(place) = angle
       do cam = 1, size(solved%shaft%lobes)
          associate (shaft => solved%shaft, lobe => solved%shaft%lobes(cam), twin => solved%shaft%twins(cam))
-            if (twin < cam) cams(:, cam) = cams(:, twin)
-            if (twin < cam) others(:, cam) = others(:, twin)
             if (twin < cam) cycle
             associate (model => solved%models(lobe), cycle => solved%cycles(lobe))
                inside = cycle%start + modulo(angle - shaft%phases(cam) - cycle%start, two_pi)

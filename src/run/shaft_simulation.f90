@@ -53,13 +53,11 @@ contains
       !> Threads that share the followers in a step, 1 without it
       integer, intent(in), optional :: threads
 
-      type(shaft_simulation_t) :: started
-      type(simulation_t) :: prepared(2)
       type(oil_t) :: oil
-      integer :: cam, lobe
+      integer :: cam, first
 
-      if (present(threads)) started%threads = threads
-      if (started%threads < 1) then
+      if (present(threads)) shaft%threads = threads
+      if (shaft%threads < 1) then
          call raise(error, kind_usage, "start_shaft: the number of threads must be 1 or more")
          return
       end if
@@ -70,20 +68,25 @@ contains
       end if
       call check_angle("start_shaft", cam_angle, error)
       if (.not. allocated(error)) call get_oil(case%lubricant, case%operating_point%oil_temperature, oil, error)
-      if (.not. allocated(error)) call new_shaft(started%shaft, case, oil%viscosity, case%operating_point%speed, error)
+      if (.not. allocated(error)) call new_shaft(shaft%shaft, case, oil%viscosity, case%operating_point%speed, error)
       if (allocated(error)) return
-      do lobe = 1, maxval(started%shaft%lobes)
-         call prepare_simulation(prepared(lobe), case, lobe, error)
-         if (allocated(error)) return
+      shaft%case = case
+      shaft%angle = cam_angle
+      associate (lobes => shaft%shaft%lobes)
+         allocate (shaft%followers(size(lobes)))
+         do cam = 1, size(lobes)
+            ! A shape is prepared once
+            first = findloc(lobes, lobes(cam), 1)
+            if (first < cam) shaft%followers(cam) = shaft%followers(first)
+            if (first == cam) call prepare_simulation(shaft%followers(cam), case, lobes(cam), error)
+            if (allocated(error)) exit
+         end do
+      end associate
+      do cam = 1, size(shaft%followers)
+         if (allocated(error)) exit
+         call place_simulation(shaft%followers(cam), cam_angle - shaft%shaft%phases(cam), error)
       end do
-      started%case = case
-      started%angle = cam_angle
-      started%followers = prepared(started%shaft%lobes)
-      do cam = 1, size(started%followers)
-         call place_simulation(started%followers(cam), cam_angle - started%shaft%phases(cam), error)
-         if (allocated(error)) return
-      end do
-      shaft = started
+      if (allocated(error)) deallocate (shaft%followers)
    end subroutine start_shaft
 
    !> Advance all followers to a cam angle, with inputs at both ends of the step, linear in the cam angle between.
@@ -147,7 +150,7 @@ contains
       if (.not. allocated(error)) then
          shaft%angle = cam_angle
       else if (allocated(kept)) then
-         shaft%followers = kept
+         call move_alloc(kept, shaft%followers)
       else
          do cam = 1, size(shaft%followers)
             call put_back(shaft%followers(cam), shaft%room%before(cam))
@@ -288,11 +291,10 @@ contains
             parts = [parts, transfer(bearings%law, parts), transfer([bearings%diameter, bearings%width, &
                & bearings%radial_clearance, bearings%bearing_positions, bearings%cam_positions], parts)]
          end associate
+         parts = [parts, transfer(shaft%shaft%pull, parts)]
       end if
       if (allocated(shaft%shaft%touch)) parts = [parts, transfer([shaft%shaft%touch%roughness, shaft%shaft%touch%pressure, &
          & shaft%shaft%touch%boundary_coefficient], parts)]
-      if (allocated(shaft%shaft%pull)) parts = [parts, transfer([shaft%shaft%pull%force, shaft%shaft%pull%angle, &
-         & shaft%shaft%pull%position], parts)]
       if (allocated(shaft%shaft%drag_table)) parts = [parts, transfer([shaft%shaft%drag_table%speed_points, &
          & shaft%shaft%drag_table%temperature_points, shaft%shaft%drag_table%torque_points], parts)]
       mark = mixed(parts)

@@ -1,6 +1,6 @@
 """The installed library: from an empty prefix a C program is built and tries every call of the interface.
 
-The libraries are built by CMake, without HDF5 but for one test, into build/cmake, which is kept from run to run.
+The libraries are built by CMake, without HDF5 but for one test, into build/cmake-tests, which is kept from run to run.
 """
 
 from __future__ import annotations
