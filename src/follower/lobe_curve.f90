@@ -212,7 +212,7 @@ contains
 
       ! Changes over the extent of a quantity: that of a point of its own, that of a turn; extent that is rounding, over the
       ! size [-]
-      real(wp), parameter :: far = 0.1_wp, little = 1.0e-4_wp, rounding = 1.0e-9_wp
+      real(wp), parameter :: far = 0.2_wp, little = 1.0e-4_wp, rounding = 1.0e-9_wp
       ! Smallest and largest values [unit of each]; values over the extent of the quantities that have any [-]
       real(wp), dimension(size(values, 1)) :: lowest, highest
       real(wp), allocatable :: scaled(:, :)
@@ -320,12 +320,16 @@ contains
       piece = 0
       shares = 0.0_wp
       if (curve%count == 0) return
-      inside = curve%ends(1) + modulo(angle - curve%ends(1), two_pi)
+      ! What `modulo` gives, which is dear, for an angle of this turn or the one before
+      inside = angle - curve%ends(1)
+      if (inside < 0.0_wp) inside = inside + two_pi
+      if (.not. (inside >= 0.0_wp .and. inside < two_pi)) inside = modulo(angle - curve%ends(1), two_pi)
+      inside = curve%ends(1) + inside
       if (inside > curve%ends(curve%count + 1)) return
       piece = 1
       last = curve%count + 1
       do while (last - piece > 1)
-         middle = (piece + last)/2
+         middle = shiftr(piece + last, 1)
          if (curve%ends(middle) <= inside) then
             piece = middle
          else
