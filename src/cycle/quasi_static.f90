@@ -12,7 +12,7 @@ module camroller_quasi_static
    use camroller_kinematics, only : position_t
    use camroller_balance, only : follow_balance
    use camroller_ode, only : counters_t
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic
    implicit none
    private
 
@@ -59,7 +59,7 @@ contains
          length = length/intervals
          call balance_at(model, left, tolerance, 0.0_wp, left_value, counters, error)
          if (allocated(error)) return
-         call append_point(trajectory, left, [left_value], [0.0_wp])
+         call append_cubic(trajectory, left, [left_value], [0.0_wp])
          do interval = 1, intervals
             right = left + length
             call balance_at(model, right, tolerance, left_value, right_value, counters, error)
@@ -98,8 +98,8 @@ contains
       call balance_at(model, middle, tolerance, 0.5_wp*sum(values), value, counters, error)
       if (allocated(error)) return
       if (abs(value - 0.5_wp*sum(values)) <= tolerance .or. depth >= max_depth) then
-         call append_point(trajectory, middle, [value], [0.0_wp])
-         call append_point(trajectory, ends(2), values(2:), [0.0_wp])
+         call append_cubic(trajectory, middle, [value], [0.0_wp])
+         call append_cubic(trajectory, ends(2), values(2:), [0.0_wp])
          counters%accepted = counters%accepted + 2
          return
       end if

@@ -17,7 +17,7 @@ module camroller_stick_slip
    use camroller_spin, only : spin_problem_t
    use camroller_stick, only : rates_at_rest, breakaway, rest_speed, touching_capacity
    use camroller_ode, only : method_t, options_t, counters_t, integrate
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_until, interpolate_state
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic, append_until, interpolate_state
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    implicit none
    private
@@ -329,7 +329,7 @@ contains
          call counted_rates(problem, angles(3), rates(:, 3), counters, error)
          if (.not. allocated(error)) direction = breakaway(rates(:, 3), walk%rest_rate)
          do while (direction == 0 .and. angles(3) < segment_end - walk%margin .and. .not. allocated(error))
-            call append_point(trajectory, angles(3), [0.0_wp], [0.0_wp])
+            call append_cubic(trajectory, angles(3), [0.0_wp], [0.0_wp])
             angles(1) = angles(3)
             rates(:, 1) = rates(:, 3)
             call scan_step(problem, segment_end - walk%margin, walk%rest_rate, angles, rates, step, counters, error)
@@ -342,7 +342,7 @@ contains
                & rates(:, last - 1:last), counters)
          end do
          if (allocated(error)) return
-         call append_point(trajectory, angles(3), [0.0_wp], [0.0_wp])
+         call append_cubic(trajectory, angles(3), [0.0_wp], [0.0_wp])
          walk%angle = merge(segment_end, angles(3), direction == 0)
          if (direction /= 0) return
       end do

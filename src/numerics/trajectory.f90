@@ -12,8 +12,8 @@ module camroller_trajectory
    implicit none
    private
 
-   public :: trajectory_t, start_trajectory, append_point, append_curve, add_point, append_until, interpolate_state, &
-      & curve_state, curve_slope
+   public :: trajectory_t, stop_margin, start_trajectory, append_cubic, append_curve, append_straight, append_until, &
+      & interpolate_state, curve_state, curve_slope
 
    !> Accepted points, in order of time; at a kink of the rate two points share a time
    type :: trajectory_t
@@ -35,11 +35,22 @@ module camroller_trajectory
    integer, parameter :: first_room = 64
    !> Numbers that make a curve, and how many of them are bends
    integer, parameter, public :: curve_numbers = 6, most_bends = 4
-   !> Longest interval that is no step, over the distance of numbers at its ends: integration goes on four of them behind a stop
-   !> from four before it, and passes over stops that are nearer to each other than 256 [-]
-   real(wp), parameter :: longest_gap = 320.0_wp
+   !> Shortest segment that is integrated, and longest interval that is no step but one that was passed over, over the margin at a
+   !> stop: two margins more, and some for the margin's own rounding [-]
+   real(wp), parameter, public :: least_segment = 64.0_wp
+   real(wp), parameter :: longest_gap = least_segment + 16.0_wp
 
 contains
+
+   !> Distance from a stop at which integration ends before it and begins behind it, a few roundings: rates may jump there.
+   pure function stop_margin(stops) result(margin)
+      !> First and last stop at least [time]
+      real(wp), intent(in) :: stops(:)
+      !> The distance [time]
+      real(wp) :: margin
+
+      margin = 4.0_wp*spacing(maxval(abs(stops)))
+   end function stop_margin
 
    !> Empty a trajectory; its memory is kept.
    subroutine start_trajectory(trajectory, components)
@@ -58,7 +69,7 @@ contains
    end subroutine start_trajectory
 
    !> Append a point, reached by the cubic Hermite curve on the rates at both ends, or linearly.
-   pure subroutine append_point(trajectory, time, state, rate)
+   pure subroutine append_cubic(trajectory, time, state, rate)
       !> The trajectory
       type(trajectory_t), intent(inout) :: trajectory
       !> Time, not before the last point [time]
@@ -73,7 +84,7 @@ contains
       integer :: i, last
 
       last = trajectory%count
-      call add_point(trajectory, time, state, rate)
+      call append_straight(trajectory, time, state, rate)
       if (last == 0 .or. trajectory%is_linear) return
       length = time - trajectory%time(last)
       do i = 1, size(state)
@@ -81,7 +92,7 @@ contains
          trajectory%bends(i, 1, last + 1) = length*trajectory%rate(i, last) - change
          trajectory%bends(i, 2, last + 1) = 2.0_wp*change - length*(trajectory%rate(i, last) + rate(i))
       end do
-   end subroutine append_point
+   end subroutine append_cubic
 
    !> Append a point and the curve that reaches it.
    pure subroutine append_curve(trajectory, time, state, rate, bends)
@@ -96,13 +107,13 @@ contains
       !> Bends of the curve, shape (component, 3) [state]
       real(wp), intent(in) :: bends(:, :)
 
-      call add_point(trajectory, time, state, rate)
+      call append_straight(trajectory, time, state, rate)
       trajectory%bends(:, :size(bends, 2), trajectory%count) = bends
    end subroutine append_curve
 
    !> Append a point, reached by a straight line: also the start of a segment, behind a stop, since over the gap of a few roundings
    !> from the segment before nothing changes, however far the rates on both sides are apart.
-   pure subroutine add_point(trajectory, time, state, rate)
+   pure subroutine append_straight(trajectory, time, state, rate)
       !> The trajectory
       type(trajectory_t), intent(inout) :: trajectory
       !> Time [time], state [state] and rate [state/time]
@@ -114,7 +125,7 @@ contains
       trajectory%state(:, trajectory%count) = state
       trajectory%rate(:, trajectory%count) = rate
       trajectory%bends(:, :, trajectory%count) = 0.0_wp
-   end subroutine add_point
+   end subroutine append_straight
 
    !> Append another trajectory up to a time; the curve that holds the time is cut there.
    pure subroutine append_until(trajectory, source, time)
@@ -244,7 +255,7 @@ contains
 
       step = interval
       associate (times => trajectory%time, count => trajectory%count)
-         if (times(step + 1) - times(step) <= longest_gap*spacing(max(abs(times(1)), abs(times(count))))) then
+         if (times(step + 1) - times(step) <= longest_gap*stop_margin([times(1), times(count)])) then
             if (interval > 1) then
                step = interval - 1
             else if (interval < count - 1) then

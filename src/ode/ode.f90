@@ -11,7 +11,7 @@ module camroller_ode
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
-   use camroller_trajectory, only : trajectory_t, start_trajectory, add_point, append_curve
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_straight, append_curve, least_segment, stop_margin
    use camroller_step_checks, only : check_step
    use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
    implicit none
@@ -76,8 +76,8 @@ contains
       walk%max_step = options%max_step
       walk%proposed = options%step
       if (walk%proposed <= 0.0_wp) walk%proposed = 1.0e-4_wp*(stops(size(stops)) - stops(1))
-      margin = 4.0_wp*spacing(maxval(abs(stops)))
-      segments = count(stops(2:) - stops(:size(stops) - 1) > 64.0_wp*margin)
+      margin = stop_margin(stops)
+      segments = count(stops(2:) - stops(:size(stops) - 1) > least_segment*margin)
       if (allocated(options%tolerance)) method%tolerance = options%tolerance
       call start_trajectory(trajectory, size(state))
       if (method%needs_jacobian) then
@@ -85,7 +85,7 @@ contains
          call new_linear(method%there, size(state))
       end if
       do segment = 1, size(stops) - 1
-         if (stops(segment + 1) - stops(segment) <= 64.0_wp*margin) cycle
+         if (stops(segment + 1) - stops(segment) <= least_segment*margin) cycle
          associate (step => walk%step)
             step%time = stops(segment) + margin
             method%horizon = stops(segment + 1) - margin
@@ -95,7 +95,7 @@ contains
                   & trim(problem%name_time(step%time)))
                return
             end if
-            call add_point(trajectory, step%time, step%state, step%rate)
+            call append_straight(trajectory, step%time, step%state, step%rate)
             if (.not. is_fixed(method, options)) walk%proposed = min(walk%proposed, method%longest_first_step(step))
             if (.not. is_fixed(method, options)) walk%max_step = min(options%max_step, &
                & (method%horizon - step%time)/max(1, options%fewest_steps/segments))

@@ -4,7 +4,7 @@
 module camroller_ode_method
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : problem_t, linear_t, counters_t
-   use camroller_trajectory, only : trajectory_t, append_curve, append_point, curve_numbers
+   use camroller_trajectory, only : trajectory_t, append_curve, append_cubic, curve_numbers
    implicit none
    private
 
@@ -181,7 +181,7 @@ contains
       if (method%has_curve) then
          call append_curve(trajectory, step%time, step%state, step%rate, method%bends)
       else
-         call append_point(trajectory, step%time, step%state, step%rate)
+         call append_cubic(trajectory, step%time, step%state, step%rate)
       end if
    end subroutine keep_point
 

@@ -11,7 +11,8 @@ module camroller_ode_switching
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
-   use camroller_trajectory, only : trajectory_t, start_trajectory, add_point, append_point, curve_state
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_straight, append_cubic, curve_state, least_segment, &
+      & stop_margin
    implicit none
    private
 
@@ -116,22 +117,22 @@ contains
 
       type(walk_t) :: walk
       ! A few roundings [time]
-      real(wp) :: least
+      real(wp) :: margin
       integer :: segment, status
 
       call move_step(method%room, walk%step)
       call start_step(walk%step, state)
       walk%proposed = options%step
-      least = 4.0_wp*spacing(maxval(abs(stops)))
+      margin = stop_margin(stops)
       method%tolerance = options%tolerance
       call start_trajectory(trajectory, size(state))
       call new_linear(method%here, size(state))
       call new_linear(method%there, size(state))
       associate (step => walk%step)
          do segment = 1, size(stops) - 1
-            if (stops(segment + 1) - stops(segment) <= 64.0_wp*least) cycle
-            step%time = stops(segment) + least
-            method%horizon = stops(segment + 1) - least
+            if (stops(segment + 1) - stops(segment) <= least_segment*margin) cycle
+            step%time = stops(segment) + margin
+            method%horizon = stops(segment + 1) - margin
             call problem%linearise(step%time, step%state, method%horizon, method%here, counters, status)
             if (status == 0) call problem%get_switches(step%time, step%state, walk%switches(:problem%switches + &
                & problem%markers), status)
@@ -140,7 +141,7 @@ contains
                return
             end if
             step%rate(:) = method%here%rate
-            call add_point(trajectory, step%time, step%state, step%rate)
+            call append_straight(trajectory, step%time, step%state, step%rate)
             call walk_segment(problem, method, options, walk, trajectory, counters, error)
             if (allocated(error)) return
          end do
@@ -360,7 +361,7 @@ contains
             counters%accepted = counters%accepted + 1
             step%new_rate(:) = method%there%rate
             call take_step(step)
-            call append_point(trajectory, step%time, step%state, step%rate)
+            call append_cubic(trajectory, step%time, step%state, step%rate)
             call copy_linear(method%there, method%here)
             walk%switches(:) = walk%new_switches
          else

@@ -11,6 +11,7 @@ module test_lobe_curve
    use camroller_means, only : integrate_lobe, statistics_t
    use camroller_model, only : model_t
    use camroller_panels, only : panel_points
+   use camroller_refined_curve, only : follow_steps
    use camroller_run, only : build_models
    use camroller_state, only : state_t
    use camroller_torque_list, only : of_residual, torque_count
@@ -33,6 +34,7 @@ contains
       testsuite = [ &
          new_unittest("the fitted curve covers nearly the whole turn and agrees with the states", test_known), &
          new_unittest("intervals with a kink of the states have no fitted curve", test_bends), &
+         new_unittest("the curve of a flexible train with lost contacts agrees with its states", test_flexible), &
          new_unittest("a curve without an interval to halve is returned unchanged", test_nothing_to_halve), &
          new_unittest("without camshaft bearings there is no force, and torques are known where they are with them", test_absent), &
          new_unittest("points that tell how curves run miss no turn and no jump, and none is for rounding", test_telling) &
@@ -67,6 +69,18 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_bends
+
+   !> A piece for each step, so that no contact is lost or met within one.
+   subroutine test_flexible(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: worst, known
+
+      call compare("test/data/flexible_trains/bearing_pulses/deck.nml", 1, worst, known, error)
+      if (allocated(error)) return
+      call check(error, worst <= allowed, "beyond the tolerance")
+      if (allocated(error)) return
+      call check(error, known >= 0.9_wp, "hardly known")
+   end subroutine test_flexible
 
    !> A curve of equal states is smooth: it has nothing to halve, and is known afterwards.
    subroutine test_nothing_to_halve(error)
@@ -147,14 +161,28 @@ contains
       type(error_t), allocatable, intent(out) :: failure
       type(model_t), allocatable, target :: models(:)
       type(cycle_t), target :: cycle
-      type(statistics_t) :: statistics
 
       call build_models(the_case, models, failure)
       if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), the_case%numerics, failure)
-      if (.not. allocated(failure)) call integrate_lobe(the_case, models(1), cycle, follower_count(the_case) &
-         & + camshaft_count(the_case), statistics, failure)
-      if (.not. allocated(failure)) curve = statistics%curve
+      if (.not. allocated(failure)) call make_curve(the_case, models(1), cycle, curve, failure)
    end subroutine get_curve
+
+   !> Curve of a cycle.
+   subroutine make_curve(the_case, model, cycle, curve, failure)
+      type(case_t), intent(in), target :: the_case
+      type(model_t), intent(in) :: model
+      type(cycle_t), intent(in), target :: cycle
+      type(lobe_curve_t), intent(out) :: curve
+      type(error_t), allocatable, intent(out) :: failure
+      type(statistics_t) :: statistics
+
+      if (allocated(cycle%flexible)) then
+         call follow_steps(model, cycle, curve, failure)
+      else
+         call integrate_lobe(the_case, model, cycle, follower_count(the_case) + camshaft_count(the_case), statistics, failure)
+         if (.not. allocated(failure)) curve = statistics%curve
+      end if
+   end subroutine make_curve
 
    !> Largest difference between curve and states where the curve is known, over the tolerance of the cycle times the largest
    !> magnitude of the quantity; part of the turn where it is known.
@@ -166,7 +194,7 @@ contains
       type(case_t), target :: the_case
       type(model_t), allocatable, target :: models(:)
       type(cycle_t), target :: cycle
-      type(statistics_t) :: statistics
+      type(lobe_curve_t) :: lobe_curve
       type(error_t), allocatable :: failure
       type(state_t) :: state
       real(wp) :: exact(curve_values, angles), curve(curve_values, angles), difference
@@ -176,14 +204,13 @@ contains
       call get_deck_case(path, the_case, failure, number=number)
       if (.not. allocated(failure)) call build_models(the_case, models, failure)
       if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), the_case%numerics, failure)
-      if (.not. allocated(failure)) call integrate_lobe(the_case, models(1), cycle, follower_count(the_case) &
-         & + camshaft_count(the_case), statistics, failure)
+      if (.not. allocated(failure)) call make_curve(the_case, models(1), cycle, lobe_curve, failure)
       hint = 1
       do i = 1, angles
          if (.not. allocated(failure)) call state_at(cycle, models(1), two_pi*i/angles, hint, state, failure)
          if (allocated(failure)) exit
          exact(:, i) = cam_values(models(1), state, allocated(the_case%cam_bearings))
-         call curve_at(statistics%curve, two_pi*i/angles, curve(:, i), is_known(:, i))
+         call curve_at(lobe_curve, two_pi*i/angles, curve(:, i), is_known(:, i))
       end do
       if (allocated(failure)) then
          call test_failed(error, failure%message)

@@ -11,7 +11,7 @@ module test_stick_slip
    use camroller_means, only : integrate_torques
    use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
    use camroller_spin, only : rolling_speed_slope
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve, append_until, interpolate_state
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic, append_curve, append_until, interpolate_state
    use camroller_torque_list, only : torque_count, is_loss, of_residual
    use closeness, only : check_scaled
    use reference_cases, only : thesis_case, skewed_case, set_point, make_model, make_cycle, point_speeds, point_viscosities
@@ -417,8 +417,8 @@ contains
       integer :: i, hint
 
       call start_trajectory(whole, 1)
-      call append_point(whole, 1.0_wp, [0.5_wp], [2.0_wp])
-      call append_point(whole, 1.5_wp, [0.7_wp], [-1.0_wp])
+      call append_cubic(whole, 1.0_wp, [0.5_wp], [2.0_wp])
+      call append_cubic(whole, 1.5_wp, [0.7_wp], [-1.0_wp])
       call append_curve(whole, 3.0_wp, [-0.4_wp], [1.0_wp], reshape([0.3_wp, -0.8_wp, 1.1_wp], [1, 3]))
       call start_trajectory(part, 1)
       call append_until(part, whole, 2.6_wp)
