@@ -43,6 +43,12 @@ def cmake_prefix(tmp_path_factory) -> pathlib.Path:
     return installed_by_cmake(tmp_path_factory.mktemp("prefix"), "OFF")
 
 
+@pytest.fixture(scope="session")
+def cmake_io_prefix(tmp_path_factory) -> pathlib.Path:
+    """The same with what needs HDF5, and the program."""
+    return installed_by_cmake(tmp_path_factory.mktemp("io_prefix"), "ON")
+
+
 def installed_by_cmake(place: pathlib.Path, io: str) -> pathlib.Path:
     """The prefix, with libraries that are installed into it: with `io` ON those that need HDF5, too, and the program."""
     if shutil.which("cmake") is None:

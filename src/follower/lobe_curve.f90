@@ -320,7 +320,7 @@ contains
       piece = 0
       shares = 0.0_wp
       if (curve%count == 0) return
-      ! What `modulo` gives, which is dear, for an angle of this turn or the one before
+      ! What `modulo` gives, without its call of `fmod` for an angle of this turn or of the one before
       inside = angle - curve%ends(1)
       if (inside < 0.0_wp) inside = inside + two_pi
       if (.not. (inside >= 0.0_wp .and. inside < two_pi)) inside = modulo(angle - curve%ends(1), two_pi)

@@ -291,10 +291,11 @@ contains
             parts = [parts, transfer(bearings%law, parts), transfer([bearings%diameter, bearings%width, &
                & bearings%radial_clearance, bearings%bearing_positions, bearings%cam_positions], parts)]
          end associate
-         parts = [parts, transfer(shaft%shaft%pull, parts)]
       end if
       if (allocated(shaft%shaft%touch)) parts = [parts, transfer([shaft%shaft%touch%roughness, shaft%shaft%touch%pressure, &
          & shaft%shaft%touch%boundary_coefficient], parts)]
+      if (allocated(shaft%case%belt_pull)) parts = [parts, transfer([shaft%case%belt_pull%force, shaft%case%belt_pull%angle, &
+         & shaft%case%belt_pull%position], parts)]
       if (allocated(shaft%shaft%drag_table)) parts = [parts, transfer([shaft%shaft%drag_table%speed_points, &
          & shaft%shaft%drag_table%temperature_points, shaft%shaft%drag_table%torque_points], parts)]
       mark = mixed(parts)

@@ -14,8 +14,6 @@ import subprocess
 
 import pytest
 
-from conftest import installed_by_cmake
-
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks" / "thesis.nml"
 CAMSHAFT = ROOT / "decks" / "three_cam_head.nml"
@@ -173,8 +171,8 @@ def test_nothing_installed_points_to_the_sources(prefix):
         assert str(ROOT) not in run("readelf", "-d", library)
 
 
-def test_with_hdf5_there_are_both_libraries_the_program_and_its_pages(tmp_path):
-    prefix = installed_by_cmake(tmp_path / "prefix", "ON")
+def test_with_hdf5_there_are_both_libraries_the_program_and_its_pages(cmake_io_prefix, tmp_path):
+    prefix = cmake_io_prefix
     result = tmp_path / "result.h5"
     run(prefix / "bin" / "camroller", "run", DECK, "--no-sweep", "-o", result, "--quiet")
     assert result.read_bytes()[:4] == b"\x89HDF"
