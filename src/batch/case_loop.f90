@@ -354,7 +354,8 @@ contains
       !$omp critical (camroller_texts)
       computed%reasons = ""
       if (allocated(computed%result%choice)) computed%reasons = choice_in_words(computed%result%choice)
-      if (size(deck%sweep%axes) > 0) call add_context(computed%failure, case_in_words(deck%sweep, number))
+      if (allocated(computed%failure) .and. size(deck%sweep%axes) > 0) call add_context(computed%failure, &
+         & case_in_words(deck%sweep, number))
       !$omp end critical (camroller_texts)
       if (with_profiles .and. .not. allocated(computed%failure)) call find_profiles(computed%profiles, case, computed%result)
    end subroutine compute_case

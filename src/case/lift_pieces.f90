@@ -4,10 +4,11 @@
 module camroller_lift_pieces
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_model, only : model_t
+   use camroller_sorting, only : sort
    implicit none
    private
 
-   public :: find_edges, kinks_passed, scan_t, start_scan, has_next, next_angle, leave_rest, sort
+   public :: find_edges, kinks_passed, scan_t, start_scan, has_next, next_angle, leave_rest
 
    !> Place in a scan of the pieces of the lift
    type :: scan_t
@@ -165,26 +166,5 @@ contains
 
       if (scan%step < scan%steps) scan%step = max(scan%step, scan%steps - 2)
    end subroutine leave_rest
-
-   !> Sort a short list by insertion.
-   pure subroutine sort(values)
-      !> Numbers, in and out [any]
-      real(wp), intent(inout) :: values(:)
-
-      ! The one being placed [any]
-      real(wp) :: value
-      integer :: i, j
-
-      do i = 2, size(values)
-         value = values(i)
-         j = i - 1
-         do while (j >= 1)
-            if (values(j) <= value) exit
-            values(j + 1) = values(j)
-            j = j - 1
-         end do
-         values(j + 1) = value
-      end do
-   end subroutine sort
 
 end module camroller_lift_pieces

@@ -4,7 +4,7 @@
 module camroller_cycle_start
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_convergence
-   use camroller_lift_pieces, only : sort
+   use camroller_sorting, only : sort
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_ramp, only : speed_on_ramp
    use camroller_kinematics, only : position_t

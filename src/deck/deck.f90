@@ -188,7 +188,7 @@ contains
       end if
       call sweep_overrides(deck%sweep, case_number, overrides)
       call make_case(deck, overrides, case, error)
-      if (size(overrides) > 0) call add_context(error, case_in_words(deck%sweep, case_number))
+      if (allocated(error) .and. size(overrides) > 0) call add_context(error, case_in_words(deck%sweep, case_number))
    end subroutine make_sweep_case
 
    !> Take a deck as it stands, without its sweep, which is taken out of its text too, so that a result of it can be repeated.

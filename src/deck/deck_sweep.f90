@@ -10,7 +10,7 @@ module camroller_deck_sweep
    use camroller_kinds, only : wp
    use camroller_names, only : name_length
    use camroller_units, only : unit_name_length
-   use camroller_number_text, only : number_text, integer_text
+   use camroller_number_text, only : append_number, integer_text
    use camroller_text_list, only : text_list_t, text_at
    use camroller_samples, only : sample_names, sample_sobol, sample_latin_hypercube, sample_independent
    use camroller_deck_matching, only : override_t
@@ -248,7 +248,8 @@ contains
       if (axis%is_whole) then
          text = integer_text(nint(value))
       else
-         text = number_text(value, value_digits)
+         text = ""
+         call append_number(text, value, value_digits)
       end if
    end subroutine range_value
 

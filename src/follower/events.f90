@@ -4,7 +4,8 @@
 !> are known before a cycle is integrated, and no step passes over one.
 module camroller_events
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, leave_rest, next_angle, sort
+   use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, leave_rest, next_angle
+   use camroller_sorting, only : sort
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_joints, only : has_curves, has_tip_curve, jumps_with_tip, jumps_with_valve
    use camroller_lift, only : is_at_rest

@@ -14,6 +14,7 @@
 module camroller_extremes
    use camroller_kinds, only : wp, two_pi
    use camroller_extremum, only : extremum_t, narrow_extremum, start_extremum
+   use camroller_sorting, only : find_order
    implicit none
    private
 
@@ -162,7 +163,7 @@ contains
 
       if (allocated(samples%order)) deallocate (samples%order, samples%beside)
       allocate (samples%order(samples%count), samples%beside(2, samples%count))
-      call sort_rows(samples%angle(:samples%count), samples%order)
+      call find_order(samples%angle(:samples%count), samples%order)
       samples%sorted = samples%count
       associate (order => samples%order)
          ! Rows that share an angle share their neighbours
@@ -233,56 +234,6 @@ contains
          stands_alone = all(samples%beside(:, order(place)) == order([1 + modulo(place - 2, n), 1 + modulo(place, n)]))
       end associate
    end function stands_alone
-
-   !> Rows by their angles: runs that rise as they are, each with the next, are merged until one is left.
-   pure subroutine sort_rows(angle, order)
-      !> Angles [rad]
-      real(wp), intent(in) :: angle(:)
-      !> Rows, their angles rising
-      integer, intent(out) :: order(size(angle))
-
-      ! Rows merged; first row of each run, and what follows the last
-      integer :: merged(size(angle)), starts(size(angle) + 1)
-      integer :: runs, run, left, right, last, i
-
-      order = [(i, i=1, size(angle))]
-      runs = min(1, size(angle))
-      starts(1) = 1
-      do i = 2, size(angle)
-         if (angle(i) >= angle(i - 1)) cycle
-         runs = runs + 1
-         starts(runs) = i
-      end do
-      starts(runs + 1) = size(angle) + 1
-      do while (runs > 1)
-         do run = 1, runs - 1, 2
-            left = starts(run)
-            right = starts(run + 1)
-            do i = starts(run), starts(run + 2) - 1
-               if (right == starts(run + 2)) then
-                  merged(i) = order(left)
-                  left = left + 1
-               else if (left == starts(run + 1)) then
-                  merged(i) = order(right)
-                  right = right + 1
-               else if (angle(order(left)) <= angle(order(right))) then
-                  merged(i) = order(left)
-                  left = left + 1
-               else
-                  merged(i) = order(right)
-                  right = right + 1
-               end if
-            end do
-         end do
-         last = merge(starts(runs) - 1, size(angle), modulo(runs, 2) == 1)
-         order(:last) = merged(:last)
-         do run = 1, (runs + 1)/2
-            starts(run) = starts(2*run - 1)
-         end do
-         runs = (runs + 1)/2
-         starts(runs + 1) = size(angle) + 1
-      end do
-   end subroutine sort_rows
 
    !> Begin the search for the smallest or largest value of a series. Each series is searched by itself, so that what else is
    !> sampled changes no bit of it.

@@ -25,13 +25,15 @@ module camroller_part_series
    private
 
    public :: add_asperities, add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
-      & bearing_series_count, least_force
+      & bearing_series_count, least_force, load_part
 
    !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less counts as none, of asperities and of
    !> friction in joints
    real(wp), parameter :: least_force = 1.0e-9_wp, least_area = 1.0e-20_wp
    !> Wear that counts as none: less than an atom in ten thousand million turns [m], or in three hundred years [m/s]
    real(wp), parameter :: least_wear = 1.0e-20_wp, least_wear_rate = 1.0e-20_wp
+   !> What the name of a series of the first part of the load on a bearing ends with; that of the second part follows it
+   character(len=*), parameter :: load_part = "load_x"
 
 contains
 
@@ -323,7 +325,7 @@ contains
          end if
       end if
       call append(list, "load", "N", "force of the shaft", "cam_bearings", norm2(state%load))
-      call append(list, "load_x", "N", "part of the force along the line from the first follower's pivot to the cam's centre", &
+      call append(list, load_part, "N", "part of the force along the line from the first follower's pivot to the cam's centre", &
          & "cam_bearings", state%load(1))
       call append(list, "load_y", "N", "part of the force across that, positive the way a finger turns as it opens its valve", &
          & "cam_bearings", state%load(2))

@@ -10,7 +10,7 @@ module test_extreme_errors
    use camroller_error, only : error_t
    use camroller_model, only : model_t
    use camroller_remarks, only : film_without_limit, lost_contact, remark_lines
-   use camroller_result, only : result_t, get_summary
+   use camroller_result, only : result_t, get_series, get_summary
    use camroller_run, only : build_models, run_case
    use camroller_settled_slip, only : settle
    use camroller_spin, only : rolling_speed_slope
@@ -37,6 +37,7 @@ contains
          new_unittest("the estimate bounds the error of an extreme that is a crest of the error between the nodes of a step", &
             & test_crest), &
          new_unittest("a temperature is largest where a surface of the contact is at rest", test_roller_at_rest), &
+         new_unittest("a bearing's eccentricity is smallest where its load passes close by zero between rows", test_small_load), &
          new_unittest("extremes include both sides of a jump", test_jump), &
          new_unittest("extremes of a flexible train close behind a kink of the rigid one are found", test_beside_kink), &
          new_unittest("where traction saturates, the sliding speed is corrected within the error allowed", test_settle), &
@@ -246,6 +247,30 @@ contains
       if (allocated(error)) return
       call check(error, maxval(estimates) < 2.0e-3_wp, words)
    end subroutine test_roller_at_rest
+
+   !> Against the series at every 0.02 degrees. What a search leaves is 1e-5 of the range at most; where nothing is looked for
+   !> between the rows, 0.02 of it are missing.
+   subroutine test_small_load(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: name = "bearing_3_eccentricity"
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Smallest and largest eccentricity, its series [-]
+      real(wp) :: smallest, largest
+      real(wp), allocatable :: series(:)
+      character(len=120) :: words
+
+      call get_deck_case("test/data/small_bearing_load/deck.nml", the_case, failure, "output.angle_step_deg=0.02")
+      if (.not. allocated(failure)) call run_case(the_case, result, failure)
+      if (.not. allocated(failure)) call get_summary(result, "min_"//name, smallest, failure)
+      if (.not. allocated(failure)) call get_summary(result, "max_"//name, largest, failure)
+      if (.not. allocated(failure)) call get_series(result, name, series, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      write (words, "(a, 2es13.5)") "smallest value, smallest of the series", smallest, minval(series)
+      call check(error, smallest <= minval(series) + 1.0e-5_wp*(largest - smallest), words)
+   end subroutine test_small_load
 
    subroutine test_jump(error)
       type(error_type), allocatable, intent(out) :: error
