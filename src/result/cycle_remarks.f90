@@ -17,8 +17,8 @@ module camroller_cycle_remarks
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
    use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
-      & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rubbing_pin, standing_entrainment, unloaded_end, &
-      & unresolved_slip
+      & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rolling_out_of_range, rubbing_pin, &
+      & standing_entrainment, unloaded_end, unresolved_slip
    use camroller_result, only : find_quantity, lobe_scope, quantity_t
    implicit none
    private
@@ -298,6 +298,7 @@ contains
       if (statistics%inlet_share > 0.0_wp) call add_remark(remarks, hot_inlet, "heat in the inlet is beyond what the factor of "// &
          & "Gupta and others can tell for "//number_text(100.0_wp*statistics%inlet_share, 3)//" % of the cycle: the pressure's "// &
          & "part alone would halve the film; a continuation stands for it", 100.0_wp*statistics%inlet_share)
+      if (statistics%rolling_share > 0.0_wp) call check_rolling(statistics, remarks)
       if (statistics%film_range%share <= 0.0_wp) return
       call range_in_words(statistics%film_range, model%film_law, words)
       text = "the film law is outside its published range for "
@@ -311,6 +312,25 @@ contains
          call add_remark(remarks, outside_range, text, 100.0_wp*statistics%film_range%share)
       end if
    end subroutine check_range
+
+   !> Warn where the law of rolling resistance was used for contacts that it does not describe.
+   pure subroutine check_rolling(statistics, remarks)
+      !> Means over the cycle of a lobe
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=:), allocatable :: text
+
+      text = "traction.rolling_law = 'goksem_hargreaves' is a fit to elastic contacts and hardly falls with the load: for "
+      call append_number(text, 100.0_wp*statistics%rolling_share, 3)
+      text = text//" % of the cycle it is more than twice the rolling resistance by 'biboulet_houpert', which describes rigid "// &
+         & "contacts too, up to "
+      call append_number(text, statistics%rolling_excess, 3)
+      text = text//" times at "
+      call append_cam_angle(text, statistics%rolling_angle, 1)
+      call add_remark(remarks, rolling_out_of_range, text, 100.0_wp*statistics%rolling_share)
+   end subroutine check_rolling
 
    !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
    !> does that of every film where the largest has no limit. Dampers count by the largest of them: they are one loss together.

@@ -14,13 +14,14 @@ module camroller_follower_samples
    use camroller_catalogue, only : follower_values
    use camroller_torque_list, only : torque_count, of_geometric, of_roller_inertia
    use camroller_contact_forces, only : contact_t, film_groups
-   use camroller_film, only : is_in_range
+   use camroller_film, only : groups_t, is_in_range
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
    use camroller_axial_table, only : slice_width
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
+   use camroller_traction, only : rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_resistance
    implicit none
    private
 
@@ -42,6 +43,9 @@ module camroller_follower_samples
       real(wp) :: edge_factor = 0.0_wp, edge_angle = 0.0_wp
       !> Fraction of the cycle in which one end of the roller alone carries load [-]
       real(wp) :: one_end_share = 0.0_wp
+      !> Fraction of the cycle with more than `rolling_excess_allowed` of the rolling resistance of a law for all contacts [-]; the
+      !> largest part of it [-], and its cam angle from full lift [rad]
+      real(wp) :: rolling_share = 0.0_wp, rolling_excess = 0.0_wp, rolling_angle = 0.0_wp
    end type shares_t
 
    !> One point of a cycle, for the search of standstills, of pure rolling, and of ends of the roller that begin to carry load
@@ -101,6 +105,10 @@ module camroller_follower_samples
       procedure :: sample
    end type follower_samples_t
 
+   !> Rolling resistance over that by a law for all contacts, from which on a word is due: in elastic contacts the laws are closer
+   !> to each other (test_traction) [-]
+   real(wp), parameter :: rolling_excess_allowed = 2.0_wp
+
 contains
 
    !> Add a state to the fractions of a cycle.
@@ -134,9 +142,40 @@ contains
                & /model%modulus)) shares%inlet_share = shares%inlet_share + weight
          end if
          if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, state, angle, weight)
+         if (model%rolling_law == rolling_goksem_hargreaves .and. state%contact%is_touching) call note_rolling(shares, model, &
+            & state, groups, angle, weight)
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares
+
+   !> Note where the law of Goksem and Hargreaves, a fit to elastic contacts that hardly knows the load, is used for a rigid one,
+   !> whose rolling resistance vanishes with the load: it is compared with the law of Biboulet and Houpert, which has both.
+   pure subroutine note_rolling(shares, model, state, groups, angle, weight)
+      !> The fractions
+      class(shares_t), intent(inout) :: shares
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower, in contact
+      type(state_t), intent(in) :: state
+      !> Groups of its film
+      type(groups_t), intent(in) :: groups
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Fraction of the cycle that the state represents [-]
+      real(wp), intent(in) :: weight
+
+      ! Rolling resistance by the other law [N], its slope over the load, the one over the other [-]
+      real(wp) :: force, log_slope, excess
+
+      call rolling_resistance(rolling_biboulet_houpert, groups%speed, groups%load, model%modulus, &
+         & state%position%equivalent_radius, state%contact%length, model%oil%pressure_viscosity, force, log_slope)
+      if (.not. abs(state%contact%rolling_resistance) > rolling_excess_allowed*force) return
+      shares%rolling_share = shares%rolling_share + weight
+      excess = abs(state%contact%rolling_resistance)/max(force, tiny(1.0_wp))
+      if (excess <= shares%rolling_excess) return
+      shares%rolling_excess = excess
+      shares%rolling_angle = angle
+   end subroutine note_rolling
 
    !> Note what the ends of the roller carry.
    pure subroutine note_ends(shares, state, angle, weight)

@@ -38,6 +38,7 @@ contains
          new_unittest("Biboulet and Houpert: rigid and elastic limits", test_biboulet_limits), &
          new_unittest("Biboulet and Houpert: the formula as published", test_biboulet_formula), &
          new_unittest("Biboulet and Houpert: both branches meet", test_biboulet_switch), &
+         new_unittest("laws of rolling resistance are within a factor of two of each other in elastic contacts", test_both_laws), &
          new_unittest("no rolling resistance at standstill, without load or without a law", test_rolling_zero) &
          ]
    end subroutine collect_traction
@@ -307,5 +308,33 @@ contains
       end do
       call check(error, abs(rolling(rolling_none, 1.0e-11_wp, 1.0e-4_wp)) <= 0.0_wp)
    end subroutine test_rolling_zero
+
+   !> From M2 = (1.45/1.4)^2 on, at G of 2000 to 6000 and U of 1e-13 to 1e-10: 0.66 to 1.9. A remark on the first law rests on this.
+   subroutine test_both_laws(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! U, G, load group, the smallest of an elastic contact [-]
+      real(wp) :: speed_group, material, load_group, least
+      ! Rolling resistance by both [N], slopes over the load, ratios [-]
+      real(wp) :: forces(2), slopes(2), smallest, largest
+      integer :: i, j, k
+
+      smallest = huge(1.0_wp)
+      largest = 0.0_wp
+      do i = 0, 12
+         speed_group = 1.0e-13_wp*10.0_wp**(0.25_wp*i)
+         least = (1.45_wp/1.4_wp)**2*sqrt(2.0_wp*speed_group)
+         do j = 0, 8
+            material = 2000.0_wp + 500.0_wp*j
+            do k = 0, 12
+               load_group = least*10.0_wp**(0.25_wp*k)
+               call rolling_resistance([rolling_goksem_hargreaves, rolling_biboulet_houpert], speed_group, load_group, modulus, &
+                  & radius, length, material/modulus, forces, slopes)
+               smallest = min(smallest, forces(1)/forces(2))
+               largest = max(largest, forces(1)/forces(2))
+            end do
+         end do
+      end do
+      call check(error, smallest > 0.5_wp .and. largest < 2.0_wp, "the laws differ by more than a factor of two")
+   end subroutine test_both_laws
 
 end module test_traction

@@ -1,16 +1,16 @@
 !> Remarks of results: loss of contact, the lobe concerned, and the policy that refuses such cases.
 module test_result_remarks
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller_kinds, only : wp, degree
+   use camroller_kinds, only : wp, degree, two_pi
    use camroller_error, only : error_t, kind_domain
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
-   use camroller_remarks, only : film_without_limit, remark_lines
+   use camroller_remarks, only : film_without_limit, remark_lines, rolling_out_of_range
    use camroller_result, only : result_t, get_summary
    use camroller_run, only : run_case
    use closeness, only : expect_error
    use lobe_cases, only : fast, low_lift, run, thesis_lift, two_lobes
-   use reference_cases, only : thesis_case, set_point, point_viscosities
+   use reference_cases, only : thesis_case, set_point, point_speeds, point_viscosities
    implicit none
    private
 
@@ -24,7 +24,8 @@ contains
       testsuite = [ &
          new_unittest("loss of contact gives a remark with fraction of the turn, speed and angles", test_remark), &
          new_unittest("the remark on loss of contact names the lobe", test_lobe_remark), &
-         new_unittest("contact_policy 'stop' refuses loss of contact and no other remark", test_policy) &
+         new_unittest("contact_policy 'stop' refuses loss of contact and no other remark", test_policy), &
+         new_unittest("rolling resistance by a law for elastic contacts gives a remark where the contact is rigid", test_rolling) &
          ]
    end subroutine collect_result_remarks
 
@@ -105,5 +106,32 @@ contains
       if (allocated(error)) return
       call expect_error(error, failure, kind_domain, "contact_policy = 'stop'")
    end subroutine test_policy
+
+   !> On a base circle with next to no load the rolling resistance of a rigid contact goes with the root of the load.
+   subroutine test_rolling(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      ! Part of the cycle on the base circle [%]
+      real(wp) :: on_base_circle
+      integer :: i
+
+      do i = 1, 3
+         case = thesis_case()
+         call set_point(case, point_speeds(1), point_viscosities(1))
+         if (i < 3) case%traction%rolling_law = "goksem_hargreaves"
+         if (i > 1) case%spring%base_circle_load = 1.0e-2_wp*case%spring%base_circle_load
+         call run(case, result, error)
+         if (allocated(error)) return
+         call check(error, any(result%remarks%kind == rolling_out_of_range) .eqv. i == 2, remark_lines(result%remarks))
+         if (allocated(error)) return
+         if (i /= 2) cycle
+         on_base_circle = 100.0_wp - 100.0_wp*(case%lift%opening_half_angle + case%lift%closing_half_angle)/two_pi
+         associate (share => pack(result%remarks%size, result%remarks%kind == rolling_out_of_range))
+            call check(error, share(1), on_base_circle, thr=3.0_wp)
+         end associate
+         if (allocated(error)) return
+      end do
+   end subroutine test_rolling
 
 end module test_result_remarks
