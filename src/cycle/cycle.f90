@@ -18,7 +18,7 @@ module camroller_cycle
    use camroller_events, only : find_stops, cycle_stops
    use camroller_fold, only : explain_end
    use camroller_spin, only : spin_problem_t, rolling_speed_at
-   use camroller_cycle_start, only : check_steps, choose_start, run_up_stops, rolling_speed_at_angle
+   use camroller_cycle_start, only : balance_points, check_steps, choose_start, run_up_stops, rolling_speed_at_angle
    use camroller_settled_slip, only : settle
    use camroller_quasi_static, only : quasi_static_cycle
    use camroller_contraction, only : largest_contraction
@@ -120,8 +120,8 @@ contains
       real(wp) :: state(1), first(1), scale, least, largest
       ! Start and end of the turn before [m/s]; smallest closure with this tolerance [-]
       real(wp) :: last(2), best
-      ! Decay rate of the slip that half of the turn exceeds [1/rad]
-      real(wp) :: usual_decay
+      ! Decay rates of the slip at angles evenly spaced over the turn [1/rad]
+      real(wp) :: decay_rates(balance_points)
       type(numerics_t) :: resolved
       type(options_t) :: turn_options
       integer :: turn
@@ -129,7 +129,7 @@ contains
       resolved = resolve_numerics(numerics)
       cycle%tolerance = resolved%tolerance
       call find_stops(model, stops)
-      call choose_start(model, cycle%start, state(1), scale, least, cycle%counters%evaluations, usual_decay)
+      call choose_start(model, cycle%start, state(1), scale, least, cycle%counters%evaluations, decay_rates)
       if (resolved%method == quasi_static) then
          call check_mobilisation(model, error)
          if (allocated(error)) return
@@ -140,7 +140,7 @@ contains
       end if
       call choose_method(cycle, model, resolved, scale, problem, method, options, error)
       if (.not. (allocated(error) .or. method%needs_jacobian .or. cycle%is_linear)) call check_steps(resolved%method, &
-         & options%max_steps, usual_decay, error)
+         & options%max_steps, decay_rates, error)
       if (allocated(error)) return
       if (cycle%has_surface_speed) state(1) = rolling_speed_at_angle(model, cycle%start) - state(1)
       cycle%stops = cycle_stops(stops, cycle%start)

@@ -4,7 +4,6 @@
 module camroller_cycle_start
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_convergence
-   use camroller_sorting, only : sort
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_ramp, only : speed_on_ramp
    use camroller_kinematics, only : position_t
@@ -15,7 +14,7 @@ module camroller_cycle_start
    implicit none
    private
 
-   public :: choose_start, check_steps, run_up_stops, rolling_speed_at_angle
+   public :: balance_points, choose_start, check_steps, run_up_stops, rolling_speed_at_angle
 
    !> Angles at which the quasi-static balance is tried
    integer, parameter :: balance_points = 36
@@ -27,7 +26,7 @@ module camroller_cycle_start
 contains
 
    !> Angle of fastest decay with the quasi-static balance there, and the scale of the sliding speed.
-   subroutine choose_start(model, start, sliding_speed, scale, least_scale, evaluations, usual_decay)
+   subroutine choose_start(model, start, sliding_speed, scale, least_scale, evaluations, decay_rates)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -38,12 +37,12 @@ contains
       real(wp), intent(out) :: scale, least_scale
       !> Evaluations of the contact, counted on
       integer, intent(inout) :: evaluations
-      !> Decay rate of the slip that half of the angles exceed [1/rad]
-      real(wp), intent(out), optional :: usual_decay
+      !> Decay rates of the slip at these angles, evenly spaced; zero where there is no balance [1/rad]
+      real(wp), intent(out), optional :: decay_rates(balance_points)
 
       type(position_t) :: position
-      ! Decay rates at the angles; zero without a balance [1/rad]
-      real(wp) :: decay_rates(balance_points)
+      ! The decay rates [1/rad]
+      real(wp) :: rates(balance_points)
       ! Angle [rad], sliding speed of the balance [m/s], decay rate [1/rad], fastest of them
       real(wp) :: angle, balance, decay_rate, fastest
       ! Largest speed of pure rolling, accuracy of the scan [m/s]
@@ -70,7 +69,7 @@ contains
             decay_rate = 0.0_wp
             call follow_balance(model, angle, tolerance, position, balance, decay_rate, evaluations, is_found)
          end if
-         decay_rates(i + 1) = merge(decay_rate, 0.0_wp, is_found)
+         rates(i + 1) = merge(decay_rate, 0.0_wp, is_found)
          if (rests .and. rested) cycle
          largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
          if (.not. is_found) cycle
@@ -81,10 +80,7 @@ contains
             sliding_speed = balance
          end if
       end do
-      if (present(usual_decay)) then
-         call sort(decay_rates)
-         usual_decay = decay_rates(balance_points/2)
-      end if
+      if (present(decay_rates)) decay_rates = rates
       least_scale = least_slip*largest_rolling
       scale = max(scale, least_scale)
       if (.not. fastest >= 0.0_wp) return
@@ -93,26 +89,28 @@ contains
    end subroutine choose_start
 
    !> Refuse an explicit method that would take more steps than it may: each is stable over a few times what the slip decays in.
-   subroutine check_steps(method, most_steps, usual_decay, error)
+   !> Between two angles the slip decays at the lower rate of both at least.
+   subroutine check_steps(method, most_steps, decay_rates, error)
       !> Name of the method
       character(len=*), intent(in) :: method
       !> Steps that it may take in a turn
       integer, intent(in) :: most_steps
-      !> Decay rate of the slip that half of the turn exceeds [1/rad]
-      real(wp), intent(in) :: usual_decay
+      !> Decay rates of the slip at angles evenly spaced over the turn [1/rad]
+      real(wp), intent(in) :: decay_rates(:)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
       ! Stable step times decay rate of Dormand and Prince's pair (Hairer and Wanner 1996, section IV.2) [-]
       real(wp), parameter :: stable = 3.3_wp
-      ! Steps that half of the turn takes at least [-]
+      ! Steps that the turn takes at least [-]
       real(wp) :: steps
 
-      steps = usual_decay*pi/stable
+      steps = sum(min(decay_rates, cshift(decay_rates, 1)))*two_pi/(size(decay_rates)*stable)
       if (steps <= most_steps) return
       call raise(error, kind_convergence, "method '"//trim(method)//"' is explicit, and its steps are stable over a few times "// &
-         & "what the slip decays in, less than "//number_text(1.0_wp/(usual_decay*degree), 2)//" deg for half of the turn: "// &
-         & "that takes "//number_text(steps, 2)//" steps, with "//integer_text(most_steps)//" allowed; take method 'automatic'")
+         & "what the slip decays in, down to "//number_text(1.0_wp/(maxval(decay_rates)*degree), 2)//" deg: "// &
+         & "the turn takes "//number_text(steps, 2)//" steps at least, with "//integer_text(most_steps)//" allowed; "// &
+         & "take method 'automatic'")
    end subroutine check_steps
 
    !> Stops of the run-up to a cycle: the last degrees before its start.

@@ -3,7 +3,7 @@
 !> In: `case_t`. Out: `result_t`. No files, no printing, no state left behind.
 module camroller_run
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, add_context, kind_convergence, cause_several_balances
+   use camroller_error, only : error_t, raise, add_context, kind_convergence, cause_unknown
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond, first_numerics, most_refinements, refine_tolerance, &
       & resolve_numerics, second_method, way_out
    use camroller_case, only : case_t, numerics_t, automatic_method
@@ -195,7 +195,7 @@ contains
          if (allocated(earlier%cycles) .or. has_way_out .or. error%kind /= kind_convergence .or. &
             & .not. is_checked(case%numerics)) exit
          call take_way_out(case%numerics, numerics, least, has_way_out)
-         if (has_way_out .and. error%cause == cause_several_balances) exit
+         if (has_way_out .and. error%cause /= cause_unknown) exit
       end do
       if (.not. has_result) then
          if (.not. allocated(earlier%cycles)) return

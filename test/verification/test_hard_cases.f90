@@ -12,7 +12,7 @@ module test_hard_cases
    use camroller_raw_file, only : find_files
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_spin_piece, only : spin_piece_t, integrate_between
-   use camroller_cycle_start, only : check_steps, choose_start
+   use camroller_cycle_start, only : balance_points, check_steps, choose_start
    use camroller_events, only : find_stops_between
    use camroller_ode_methods, only : method_facts
    use camroller_trajectory, only : interpolate_state
@@ -285,13 +285,13 @@ contains
    subroutine test_explicit(error)
       type(error_type), allocatable, intent(out) :: error
       ! Speeds at which the method is allowed and refused [rad/s]; part of the steps that is foreseen at least [-]
-      real(wp), parameter :: fast = 20.0_wp, slow = 0.3_wp, part = 0.1_wp
+      real(wp), parameter :: fast = 20.0_wp, slow = 0.3_wp, part = 0.5_wp
       type(case_t) :: case
       type(model_t), allocatable :: models(:)
       type(error_t), allocatable :: failure
       type(cycle_t) :: cycle
-      ! Sliding speed, its scales [m/s]; start [rad], decay rate [1/rad]
-      real(wp) :: sliding_speed, scale, least, start, decay
+      ! Sliding speed, its scales [m/s]; start [rad], decay rates [1/rad]
+      real(wp) :: sliding_speed, scale, least, start, decay_rates(balance_points)
       integer :: evaluations
 
       call get_case("near_standstill", case, error)
@@ -311,16 +311,16 @@ contains
       case%operating_point%speed = fast
       call build_models(case, models, failure)
       evaluations = 0
-      if (.not. allocated(failure)) call choose_start(models(1), start, sliding_speed, scale, least, evaluations, decay)
+      if (.not. allocated(failure)) call choose_start(models(1), start, sliding_speed, scale, least, evaluations, decay_rates)
       if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), case%numerics, failure)
       if (allocated(failure)) then
          call test_failed(error, failure%message)
          return
       end if
-      call check_steps("dormand_prince", cycle%counters%accepted, decay, failure)
+      call check_steps("dormand_prince", cycle%counters%accepted, decay_rates, failure)
       call check(error, .not. allocated(failure), "more steps are foreseen than are taken")
       if (allocated(error)) return
-      call check_steps("dormand_prince", int(part*cycle%counters%accepted), decay, failure)
+      call check_steps("dormand_prince", int(part*cycle%counters%accepted), decay_rates, failure)
       call check(error, allocated(failure), "next to no steps are foreseen")
    end subroutine test_explicit
 
