@@ -13,7 +13,7 @@ module camroller_camshaft_extremes
    use camroller_flexible_solution, only : error_share
    use camroller_lobe_curve, only : cam_values, contact_near, curve_points, curve_values, telling_points
    use camroller_means, only : statistics_t
-   use camroller_part_series, only : bearing_count, load_part
+   use camroller_part_series, only : bearing_count, bearing_series_count, load_part
    use camroller_result, only : quantity_t, find_quantity
    use camroller_shaft, only : solved_t, shaft_torques
    use camroller_slip_errors, only : error_at, state_without
@@ -64,6 +64,8 @@ contains
       ! larger error of smallest and largest value [unit of the series]
       real(wp), allocatable :: points(:), stops(:), angles(:)
       real(wp), dimension(size(lowest)) :: values, errors
+      ! The first series of a single bearing; they are the last ones
+      integer :: single
       integer :: i, lobe, residual, series, sense
 
       ! It is rounding, of which the rows show enough
@@ -87,9 +89,11 @@ contains
          if (allocated(error)) return
          call add_sample(samples, angles(i), values, i <= size(stops) .and. .not. allocated(solved%cycles(1)%flexible))
       end do
-      call add_small_loads(solved, list, samples, error)
-      if (allocated(error)) return
+      single = size(values) - bearing_series_count(solved%case) + 1
       do series = 1, size(values)
+         ! Not before: what single bearings ask for changes no bit of a torque
+         if (series == single) call add_small_loads(solved, list, samples, error)
+         if (allocated(error)) return
          if (series == residual) then
             lowest(series) = minval(samples%values(series, :samples%count))
             highest(series) = maxval(samples%values(series, :samples%count))

@@ -1,6 +1,7 @@
 !> Errors of smallest and largest values: the estimate bounds them, jumps count with both of their sides, and a sliding speed that
 !> is moved to fit the slope of its curve stays within the error of the curve. Films that have no largest value.
 module test_extreme_errors
+   use, intrinsic :: iso_fortran_env, only : int64
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, degree
    use camroller_case, only : case_t
@@ -10,7 +11,7 @@ module test_extreme_errors
    use camroller_error, only : error_t
    use camroller_model, only : model_t
    use camroller_remarks, only : film_without_limit, lost_contact, remark_lines
-   use camroller_result, only : result_t, get_series, get_summary
+   use camroller_result, only : result_t, find_quantity, get_series, get_summary
    use camroller_run, only : build_models, run_case
    use camroller_settled_slip, only : settle
    use camroller_spin, only : rolling_speed_slope
@@ -249,17 +250,18 @@ contains
    end subroutine test_roller_at_rest
 
    !> Against the series at every 0.02 degrees. What a search leaves is 1e-5 of the range at most; where nothing is looked for
-   !> between the rows, 0.02 of it are missing.
+   !> between the rows, 0.02 of it are missing. Means and extremes of all else are the same to the last bit without these series.
    subroutine test_small_load(error)
       type(error_type), allocatable, intent(out) :: error
       character(len=*), parameter :: name = "bearing_3_eccentricity"
       type(case_t) :: the_case
-      type(result_t) :: result
+      type(result_t) :: result, without
       type(error_t), allocatable :: failure
       ! Smallest and largest eccentricity, its series [-]
       real(wp) :: smallest, largest
       real(wp), allocatable :: series(:)
       character(len=120) :: words
+      integer :: i
 
       call get_deck_case("test/data/small_bearing_load/deck.nml", the_case, failure, "output.angle_step_deg=0.02")
       if (.not. allocated(failure)) call run_case(the_case, result, failure)
@@ -270,6 +272,19 @@ contains
       if (allocated(error)) return
       write (words, "(a, 2es13.5)") "smallest value, smallest of the series", smallest, minval(series)
       call check(error, smallest <= minval(series) + 1.0e-5_wp*(largest - smallest), words)
+      if (allocated(error)) return
+      call get_deck_case("test/data/small_bearing_load/deck.nml", the_case, failure, "cam_bearings.bearing_series=.false.")
+      if (.not. allocated(failure)) call run_case(the_case, without, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      do i = 1, size(without%summary)
+         if (index(without%summary(i)%name, "m") /= 1) cycle
+         associate (value => result%summary_values(find_quantity(result%summary, without%summary(i)%name)))
+            call check(error, transfer(value, 0_int64) == transfer(without%summary_values(i), 0_int64), &
+               & without%summary(i)%name//" has other bits without series of single bearings")
+         end associate
+         if (allocated(error)) return
+      end do
    end subroutine test_small_load
 
    subroutine test_jump(error)
