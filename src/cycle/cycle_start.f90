@@ -89,7 +89,7 @@ contains
    end subroutine choose_start
 
    !> Refuse an explicit method that would take more steps than it may: each is stable over a few times what the slip decays in.
-   !> Between two angles the slip decays at the lower rate of both at least.
+   !> Between two of the angles the slip is taken to decay at the lower rate of both.
    subroutine check_steps(method, most_steps, decay_rates, error)
       !> Name of the method
       character(len=*), intent(in) :: method

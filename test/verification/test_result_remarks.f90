@@ -107,7 +107,8 @@ contains
       call expect_error(error, failure, kind_domain, "contact_policy = 'stop'")
    end subroutine test_policy
 
-   !> On a base circle with next to no load the rolling resistance of a rigid contact goes with the root of the load.
+   !> On a base circle with next to no load the rolling resistance of a rigid contact goes with the root of the load. The load rises
+   !> within four degrees at both ends of the event, which are 2 % of the turn.
    subroutine test_rolling(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
