@@ -24,7 +24,7 @@ PARTS = {
     "means, errors": ["report_MOD_take_statistics"],
     "extremes": ["report_MOD_search_extremes"],
     "result": ["report_MOD_make_result"],
-    ". camshaft": ["mean_bearings_MOD_mean_bearing_torque", "camshaft_extremes_MOD_search_camshaft"],
+    ". camshaft": ["camshaft_statistics_MOD_mean_bearing_torque", "camshaft_statistics_MOD_search_camshaft"],
     ". margins": ["margins_MOD_find_margins"],
     ". summary": ["summary_MOD_make_summary"],
     "contacts": ["contact_MOD_solve_at_speeds", "contact_MOD_solve_contact"],

@@ -22,7 +22,7 @@ module camroller_report
    use camroller_part_series, only : bearing_count, bearing_series_count
    use camroller_bearing_turn, only : complete_shaft
    use camroller_shaft, only : new_shaft, shaft_torques, solved_t
-   use camroller_mean_bearings, only : mean_bearing_torque
+   use camroller_camshaft_statistics, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_flexible_report, only : compare_turns, flexible_means_t, integrate_turns, list_turns
    use camroller_state, only : state_t

@@ -3,7 +3,7 @@
 !> In: the solved case, rows of its series, margins. Out: `extremes_t`.
 module camroller_series_extremes
    use camroller_kinds, only : wp
-   use camroller_camshaft_extremes, only : search_camshaft
+   use camroller_camshaft_statistics, only : search_camshaft
    use camroller_catalogue, only : follower_values, lobe_columns, camshaft_columns
    use camroller_cycle, only : state_at
    use camroller_cycle_remarks, only : judge_extremes

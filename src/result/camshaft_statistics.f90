@@ -1,30 +1,50 @@
-!> Smallest and largest values of the series of the camshafts, between the angles met as well, with their errors.
+!> Means, smallest and largest values of the series of the camshafts.
 !>
-!> In: the solved case, statistics of its lobe shapes, rows of the camshafts. Out: the values; the largest error in the statistics.
-module camroller_camshaft_extremes
-   use camroller_kinds, only : two_pi, wp
+!> In: the solved case, statistics of its lobe shapes. Out: mean torque of the bearings and means of the series of single ones over
+!> a turn to the tolerance of the cycles, with an estimate of their error; rows of the series at the angles evaluated; with these
+!> the smallest and largest values, between the angles met as well, with the largest of their errors in the statistics.
+module camroller_camshaft_statistics
+   use camroller_kinds, only : degree, two_pi, wp
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
-   use camroller_catalogue, only : camshaft_count, camshaft_values
+   use camroller_catalogue, only : camshaft_columns, camshaft_count, camshaft_values
    use camroller_cycle, only : state_at
    use camroller_error_estimate, only : margin
-   use camroller_extremes, only : samples_t, search_t, add_sample, beside_jump, narrow_search, start_search
+   use camroller_extremes, only : samples_t, search_t, add_sample, beside_jump, move_samples, narrow_search, start_samples, &
+      & start_search
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
    use camroller_lobe_curve, only : cam_values, contact_near, curve_points, curve_values, telling_points
-   use camroller_means, only : statistics_t
+   use camroller_means, only : mean_tolerance, most_halvings, quadrature_part, statistics_t
+   use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_part_series, only : bearing_count, bearing_series_count, load_part
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_shaft, only : solved_t, shaft_torques
+   use camroller_shaft, only : shaft_stops, solved_t, shaft_torques
    use camroller_slip_errors, only : error_at, state_without
    use camroller_sorting, only : find_order
    use camroller_state, only : state_t
-   use camroller_torque_list, only : torque_count, torque_series, of_contact, of_damping, of_geometric, of_guide_side, &
-      & of_needle, of_needle_drag, of_pivot, of_residual, of_roller_inertia, of_seal, of_tip
+   use camroller_torque_list, only : torque_count, torque_series, of_bearings, of_contact, of_damping, of_geometric, &
+      & of_guide_side, of_needle, of_needle_drag, of_pivot, of_residual, of_roller_inertia, of_seal, of_tip
    implicit none
    private
 
-   public :: search_camshaft
+   public :: mean_bearing_torque, search_camshaft
+
+   !> Longest panel [rad]
+   real(wp), parameter :: longest_panel = 15.0_wp*degree
+
+   !> Bearings of a camshaft on its turn
+   type, extends(sampled_t) :: bearing_samples_t
+      type(solved_t), pointer :: solved => null()
+      !> Series of the camshaft at the angles evaluated, and their number
+      type(samples_t) :: rows
+      integer :: series = 0
+      !> Those of them that are of single bearings, the last ones
+      integer :: of_bearings = 0
+      logical :: keeps_rows = .true.
+   contains
+      procedure :: sample => sample_bearings
+   end type bearing_samples_t
 
    !> Distance from a stop of rows of the camshaft that show an extreme close to a kink, whose points lie wider apart [rad]
    real(wp), parameter :: near = 1.0e-3_wp
@@ -42,6 +62,105 @@ module camroller_camshaft_extremes
    end type kept_rows_t
 
 contains
+
+   !> Mean torque of the bearings of each camshaft, and means of the series of single bearings, over panels that end at the stops
+   !> of every cam.
+   subroutine mean_bearing_torque(solved, series, single, mean, mean_error, worst, rows, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout), target :: solved
+      !> All series of the case
+      type(quantity_t), intent(in) :: series(:)
+      !> Means of the series of single bearings, as many as there are [unit of the series]
+      real(wp), intent(out) :: single(:)
+      !> Mean torque of each camshaft [N m]
+      real(wp), intent(out) :: mean(:)
+      !> Largest estimate of the error relative to the mean magnitude [-]
+      real(wp), intent(out) :: mean_error
+      !> Name of the series that this is the error of
+      character(len=*), intent(out) :: worst
+      !> Series of the camshaft at the angles evaluated
+      type(samples_t), intent(out) :: rows
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bearing_samples_t) :: samples
+      type(panels_t) :: panels
+      ! Stops of all cams [rad]
+      real(wp), allocatable :: stops(:)
+      ! Length of a panel [rad]
+      real(wp) :: length
+      ! Error estimates allowed [unit of each times rad], errors relative to the mean magnitudes [-]
+      real(wp), dimension(size(mean) + size(single)) :: allowed, errors
+      integer :: segment, count, panel, halvings, columns(2), place
+
+      mean = 0.0_wp
+      mean_error = 0.0_wp
+      samples%solved => solved
+      samples%series = camshaft_count(solved%case)
+      samples%of_bearings = size(single)
+      call start_samples(samples%rows, samples%series)
+      stops = shaft_stops(solved, spread(.true., 1, size(solved%shaft%lobes)))
+      call start_panels(panels, size(allowed), 2*size(stops) + ceiling(two_pi/longest_panel))
+      do segment = 1, size(stops) - 1
+         count = ceiling((stops(segment + 1) - stops(segment))/longest_panel)
+         if (count == 0) cycle
+         length = (stops(segment + 1) - stops(segment))/count
+         do panel = 1, count
+            call sample_panel(panels, samples, stops(segment) + (panel - 1)*length, stops(segment) + panel*length, error)
+            if (allocated(error)) return
+         end do
+      end do
+      ! Not those of halved panels: what bearings ask for changes nothing but their own torque
+      call move_samples(samples%rows, rows)
+      samples%keeps_rows = .false.
+      halvings = most_halvings
+      allowed = max(quadrature_part*mean_tolerance(maxval(solved%cycles%tolerance))*sum(panels%sizes(:, :panels%count), 2), &
+         & tiny(1.0_wp))
+      ! First for the torque alone, which is the same whether or not single bearings have series
+      call refine_panels(panels, samples, [allowed(:size(mean)), spread(huge(1.0_wp), 1, size(single))], halvings, error)
+      if (allocated(error)) return
+      mean = sum(panels%integrals(:size(mean), :panels%count), 2)/two_pi
+      errors = sum(panels%errors(:, :panels%count), 2)/max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp))
+      mean_error = maxval(errors(:size(mean)))
+      worst = torque_series(of_bearings)
+      if (size(single) == 0) return
+      call refine_panels(panels, samples, allowed, halvings, error)
+      if (allocated(error)) return
+      single = sum(panels%integrals(size(mean) + 1:, :panels%count), 2)/two_pi
+      errors = sum(panels%errors(:, :panels%count), 2)/max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp))
+      if (maxval(errors(size(mean) + 1:)) <= mean_error) return
+      columns = camshaft_columns(solved%case)
+      place = maxloc(errors(size(mean) + 1:), 1)
+      mean_error = errors(size(mean) + place)
+      worst = series(columns(2) - size(single) + place)%name
+   end subroutine mean_bearing_torque
+
+   !> Torque of the bearings of each camshaft at a cam angle, and series of single bearings.
+   subroutine sample_bearings(self, x, values, error)
+      !> The shaft with its cycles
+      class(bearing_samples_t), intent(inout) :: self
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: x
+      !> The torques [N m], the series [unit of each]
+      real(wp), intent(out) :: values(:)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Torques on each camshaft [N m]
+      real(wp) :: torques(torque_count, self%solved%shaft%count)
+      ! Series of the camshafts [unit of the series]
+      real(wp) :: series(self%series)
+      type(bearing_state_t), allocatable :: bearings(:, :)
+
+      if (self%of_bearings > 0) allocate (bearings(bearing_count(self%solved%case), self%solved%shaft%count))
+      call shaft_torques(self%solved, x, torques, error, bearings=bearings)
+      if (allocated(error)) return
+      values(:size(torques, 2)) = torques(of_bearings, :)
+      if (self%of_bearings == 0 .and. .not. self%keeps_rows) return
+      call camshaft_values(self%solved%case, torques, series, bearings, self%solved%shaft%has_torque)
+      values(size(torques, 2) + 1:) = series(self%series - self%of_bearings + 1:)
+      if (self%keeps_rows) call add_sample(self%rows, x, series, .false.)
+   end subroutine sample_bearings
 
    !> Smallest and largest values of the camshaft's series, with the largest of their errors.
    subroutine search_camshaft(solved, statistics, list, samples, lowest, highest, error)
@@ -362,4 +481,4 @@ contains
       call camshaft_values(solved%case, torques, values, bearings, solved%shaft%has_torque)
    end subroutine camshaft_row
 
-end module camroller_camshaft_extremes
+end module camroller_camshaft_statistics
