@@ -21,7 +21,7 @@ module camroller_fold
    implicit none
    private
 
-   public :: has_fold, is_lost_at_once, explain_end
+   public :: has_fold, explain_end
 
    !> Sliding speeds that are tried in each direction: down to 1e-36 of the largest
    integer, parameter :: speeds = 120
