@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import re
 import sys
 
 import numpy as np
@@ -43,6 +44,8 @@ COLUMNS = [
     ('min_film_thickness_min', 'smallest film', 'um'),
 ]
 MOST_ROWS = 50
+# Zero where contact is lost: there is no film, which is not a thin one
+SMALLEST_FILM = re.compile(r'min_(.*_)?film_(thickness_min|thickness_central|ratio)$')
 TAKEN = {'largest': np.max, 'smallest': np.min, 'mean': np.mean}
 RANGE = 'range'
 
@@ -81,6 +84,8 @@ def column_of(result, name, groups, take, heading=None, unit=None) -> list[str]:
         return range_of(heading or name, quantity, groups, unit)
     # A case without a result, which has no number, leaves its group without one
     values = np.array([TAKEN[take](quantity.values[group]) if take else quantity.values[group[0]] for group in groups])
+    if SMALLEST_FILM.match(name):
+        values = np.where(values == 0, np.nan, values)
     scale = factor(quantity.units, unit) if unit else None
     if scale is None:
         unit, scale = fitting_unit(name, quantity.units, values)

@@ -75,6 +75,16 @@ def test_failed_cases_have_dashes_and_a_reason(grid, capsys):
     assert "Case 2 has no result: no periodic state" in text
 
 
+def test_a_film_that_is_not_there_is_no_thin_one(grid):
+    with h5py.File(grid, "a") as file:
+        for name, unit, value in (("min_film_thickness_min", "m", 2.5e-7), ("min_film_ratio", "1", 1.25)):
+            file[f"summary/{name}"] = np.full(60, value)
+            file[f"summary/{name}"].attrs["units"] = unit
+            file[f"summary/{name}"][1] = 0.0
+    body = rows(table_of(read_result(grid), ["min_film_thickness_min", "min_film_ratio"]))[1:]
+    assert [row[-2:] for row in body[:3]] == [["0.250", "1.25"], ["-", "-"], ["0.250", "1.25"]]
+
+
 def test_words_in_the_summary_are_printed_as_they_are(grid):
     with h5py.File(grid, "a") as file:
         file["summary/contact"] = np.array(60 * ["lost at 180 deg"], dtype="S20")

@@ -5,21 +5,23 @@
 !>
 !> What acts on the roller as a whole follows from one line contact of the effective length `L_e = W^2/int w^2 dy`: its load per
 !> length is the mean of w weighted with the load, so that a friction `mu(w) w` of the slices adds up to `mu(W/L_e) W` to first
-!> order in the differences of w.
+!> order in the differences of w. Rolling resistance does not go with the load: two further lengths stand for it.
 !>
-!> Loads are solved at points equally spaced in the logarithm of the load, for some radii; ln(L_e/L) between them is a cubic of
-!> that logarithm and a polynomial of ln R. Contact far narrower than the roller has few slices: where they do not resolve
-!> it, below, the effective length is a power of the load.
+!> Loads are solved at points equally spaced in the logarithm of the load, for some radii; the logarithms of the lengths between
+!> them are cubics of that logarithm and polynomials of ln R. Contact far narrower than the roller has few slices: where they do
+!> not resolve it, below, the lengths are powers of the load, and the loads keep their shape on a part of the roller that is
+!> shorter as they are.
 module camroller_axial_table
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_convergence, kind_deck
    use camroller_number_text, only : integer_text, number_text
    use camroller_roller_profile, only : roller_profile_t, check_roller_profile, coupling_half_space, coupling_names, profile_gap
    use camroller_slices, only : slices_t, load_slices, new_slices
+   use camroller_traction, only : line_lengths_t
    implicit none
    private
 
-   public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_length, slice_loads, &
+   public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_lengths, slice_loads, &
       & slice_width, axial_state
 
    !> Largest W/(E' R L), at the largest radius; steps of ln(load), their most [-]; the first is a peak
@@ -34,7 +36,7 @@ module camroller_axial_table
    integer, parameter :: most_radii = 4
    !> Logarithm of the range that each radius more covers, and of that beyond the range [-]
    real(wp), parameter :: radius_step = 1.5_wp, radius_margin = 0.05_wp
-   !> ln(L_e/L), and a load over the mean less one, that is rounding [-]
+   !> Logarithm of a length over L, and a load over the mean less one, that is rounding [-]
    real(wp), parameter :: rounding = 1.0e-10_wp
 
    !> Loads along the roller, ready for use
@@ -46,8 +48,9 @@ module camroller_axial_table
       !> ln(W/(E' L^2)) of the first and the last point, ln(R/L) of the radii [-]
       real(wp) :: first, last
       real(wp), allocatable :: log_radii(:)
-      !> ln(L_e/L) and its slope over ln(W/(E' L^2)), shape (2, point, radius) [-]
-      real(wp), allocatable :: log_lengths(:, :, :)
+      !> Logarithms of the lengths over L, in the order of `line_lengths_t`, and their slopes over ln(W/(E' L^2)), shape (length, 2,
+      !> point, radius) [-]
+      real(wp), allocatable :: log_lengths(:, :, :, :)
       !> Loads per length over their mean, shape (slice, point, radius) [-]
       real(wp), allocatable :: loads(:, :, :)
    end type axial_part_t
@@ -162,7 +165,7 @@ contains
       end if
    end subroutine foresee_loads
 
-   !> Effective lengths at the points, with slopes by which no cubic between two of them leaves their range.
+   !> Lengths at the points, with slopes by which no cubic between two of them leaves their range.
    !>
    !> The slope is the harmonic mean of the slopes of both neighbouring stretches, zero where these differ in sign (Fritsch and
    !> Butland 1984); at the ends that of the last stretch. Contacts of few slices make small steps in the values, which a curve with
@@ -171,54 +174,100 @@ contains
       !> The table, with its loads
       type(axial_part_t), intent(inout) :: part
 
-      ! ln(L_e/L) at the points, slopes between them [-]
-      real(wp) :: values(size(part%loads, 2)), rises(size(part%loads, 2) - 1)
-      integer :: k, n
+      ! Logarithms of the lengths over L at the points, slopes of one between them [-]
+      real(wp) :: values(3, size(part%loads, 2)), rises(size(part%loads, 2) - 1)
+      integer :: i, k, n
 
-      n = size(values)
-      allocate (part%log_lengths(2, n, size(part%log_radii)))
+      n = size(values, 2)
+      allocate (part%log_lengths(3, 2, n, size(part%log_radii)))
       do k = 1, size(part%log_radii)
-         values = -log(sum(part%loads(:, :, k)**2, 1)/size(part%loads, 1))
-         ! The same load everywhere has the length of the roller to the last digit
-         where (abs(values) < rounding) values = 0.0_wp
-         rises = (values(2:) - values(:n - 1))/group_step
-         part%log_lengths(1, :, k) = values
-         part%log_lengths(2, 1, k) = rises(1)
-         part%log_lengths(2, n, k) = rises(n - 1)
-         part%log_lengths(2, 2:n - 1, k) = 0.0_wp
-         where (rises(2:)*rises(:n - 2) > 0.0_wp) part%log_lengths(2, 2:n - 1, k) = 2.0_wp*rises(2:)*rises(:n - 2) &
-            & /(rises(2:) + rises(:n - 2))
+         do i = 1, n
+            values(:, i) = log_lengths_of(part%loads(:, i, k))
+         end do
+         part%log_lengths(:, 1, :, k) = values
+         do i = 1, 3
+            rises = (values(i, 2:) - values(i, :n - 1))/group_step
+            part%log_lengths(i, 2, [1, n], k) = rises([1, n - 1])
+            part%log_lengths(i, 2, 2:n - 1, k) = 0.0_wp
+            where (rises(2:)*rises(:n - 2) > 0.0_wp) part%log_lengths(i, 2, 2:n - 1, k) = 2.0_wp*rises(2:)*rises(:n - 2) &
+               & /(rises(2:) + rises(:n - 2))
+         end do
       end do
    end subroutine fit_lengths
 
-   !> Value and slope between two points, beyond all of them along a straight line.
-   pure subroutine log_length(lines, place, value, slope)
-      !> Values and slopes at the points, shape (2, point) [-]
-      real(wp), intent(in) :: lines(:, :)
+   !> Lengths of some loads.
+   pure function log_lengths_of(loads) result(logs)
+      !> Loads of the slices over their mean [-]
+      real(wp), intent(in) :: loads(:)
+      !> Logarithms of the lengths over L, in the order of `line_lengths_t` [-]
+      real(wp) :: logs(3)
+
+      logs = [-log(sum(loads**2)/size(loads)), 2.0_wp*log(sum(sqrt(loads))/size(loads)), log(loaded_part(loads))]
+      ! The same load everywhere has the length of the roller to the last digit
+      where (abs(logs) < rounding) logs = 0.0_wp
+   end function log_lengths_of
+
+   !> Part of the roller that carries load. Where it ends inside of the roller, load falls to zero along a straight line.
+   pure function loaded_part(loads) result(part)
+      !> Loads of the slices over their mean; at least two in a row are above zero [-]
+      real(wp), intent(in) :: loads(:)
+      !> The part [-]
+      real(wp) :: part
+
+      integer :: first, last
+
+      first = findloc(loads > 0.0_wp, .true., 1)
+      last = findloc(loads > 0.0_wp, .true., 1, back=.true.)
+      part = (last - first + way_out(loads(first), loads(first + 1), first == 1) + way_out(loads(last), loads(last - 1), &
+         & last == size(loads)))/size(loads)
+   end function loaded_part
+
+   !> Way from the middle of the last slice with a load to where the load ends.
+   pure function way_out(outer, inner, is_end) result(way)
+      !> Loads of that slice and of the one before [any]
+      real(wp), intent(in) :: outer, inner
+      !> Does the roller end with the slice?
+      logical, intent(in) :: is_end
+      !> The way, over the width of a slice [-]
+      real(wp) :: way
+
+      way = merge(0.5_wp, 1.0_wp, is_end)
+      if (inner > outer) way = min(way, outer/(inner - outer))
+   end function way_out
+
+   !> Weights of the values and slopes at two neighbouring points, for the values between them and their slopes; beyond all points
+   !> along a straight line.
+   pure subroutine weigh_points(points, place, first, weights)
+      !> Number of points
+      integer, intent(in) :: points
       !> ln(W/(E' L^2)) from the first point on [-]
       real(wp), intent(in) :: place
-      !> ln(L_e/L), its slope [-]
-      real(wp), intent(out) :: value, slope
+      !> The point on the left
+      integer, intent(out) :: first
+      !> Weights of value and slope on the left, value and slope on the right, shape (4, value or slope) [-]
+      real(wp), intent(out) :: weights(4, 2)
 
       ! Part of the stretch [-]
       real(wp) :: t
-      integer :: i, n
 
-      n = size(lines, 2)
-      if (place <= 0.0_wp .or. place >= group_step*(n - 1)) then
-         i = merge(1, n, place <= 0.0_wp)
-         slope = lines(2, i)
-         value = lines(1, i) + slope*(place - group_step*(i - 1))
-         return
+      weights = 0.0_wp
+      if (place <= 0.0_wp) then
+         first = 1
+         weights(1:2, 1) = [1.0_wp, place]
+         weights(2, 2) = 1.0_wp
+      else if (place >= group_step*(points - 1)) then
+         first = points - 1
+         weights(3:4, 1) = [1.0_wp, place - group_step*(points - 1)]
+         weights(4, 2) = 1.0_wp
+      else
+         first = min(1 + int(place/group_step), points - 1)
+         t = place/group_step - (first - 1)
+         weights(3, :) = [t**2*(3.0_wp - 2.0_wp*t), 6.0_wp*t*(1.0_wp - t)/group_step]
+         weights(1, :) = [1.0_wp - weights(3, 1), -weights(3, 2)]
+         weights(2, :) = [group_step*t*(1.0_wp - t)**2, (1.0_wp - t)*(1.0_wp - 3.0_wp*t)]
+         weights(4, :) = [-group_step*t**2*(1.0_wp - t), t*(3.0_wp*t - 2.0_wp)]
       end if
-      i = min(1 + int(place/group_step), n - 1)
-      t = place/group_step - (i - 1)
-      associate (low => lines(1, i), high => lines(1, i + 1), first => group_step*lines(2, i), last => group_step*lines(2, i + 1))
-         value = low + t*(first + t*(3.0_wp*(high - low) - 2.0_wp*first - last + t*(2.0_wp*(low - high) + first + last)))
-         slope = (first + t*(2.0_wp*(3.0_wp*(high - low) - 2.0_wp*first - last) + 3.0_wp*t*(2.0_wp*(low - high) + first + last))) &
-            & /group_step
-      end associate
-   end subroutine log_length
+   end subroutine weigh_points
 
    !> Would a table made of these be the same?
    pure function is_same_axial_part(part, profile, length, modulus, radii) result(is_same)
@@ -250,37 +299,43 @@ contains
       place = length*((slice - 0.5_wp)/count - 0.5_wp)
    end function slice_place
 
-   !> Length of the line contact that stands for the roller, L_e, with its derivatives.
-   pure subroutine effective_length(part, load, radius, length, by_load, by_radius)
+   !> Lengths of the line contact that stands for the roller, with their derivatives.
+   pure subroutine effective_lengths(part, load, radius, lengths, by_load, by_radius)
       !> The table
       type(axial_part_t), intent(in) :: part
       !> Load, W, above zero [N]; equivalent radius, R [m]
       real(wp), intent(in) :: load, radius
-      !> The length [m]
-      real(wp), intent(out) :: length
-      !> Derivatives of its logarithm over ln(W) and ln(R) [-]
-      real(wp), intent(out) :: by_load, by_radius
+      !> The lengths [m]
+      type(line_lengths_t), intent(out) :: lengths
+      !> Derivatives of their logarithms over ln(W) and ln(R) [-]
+      type(line_lengths_t), intent(out) :: by_load, by_radius
 
-      ! ln(W/(E' L^2)) from the first point on, weights of the radii and their slopes [-]
-      real(wp) :: place, weights(size(part%log_radii)), slopes(size(part%log_radii))
-      ! ln(L_e/L) of one radius and its slope over ln(W), of all, slope of that over ln(R) [-]
-      real(wp) :: value, slope, total, along
-      integer :: k
+      ! ln(W/(E' L^2)) from the first point on, weights of the radii and their slopes, weights of the points [-]
+      real(wp) :: place, weights(size(part%log_radii)), slopes(size(part%log_radii)), points(4, 2)
+      ! Logarithms of the lengths over L: of one radius, of all, their slopes over ln(W) and ln(R) [-]
+      real(wp) :: values(3), total(3), along_load(3), along_radius(3)
+      integer :: k, first
 
       place = log(load/(part%modulus*part%length**2)) - part%first
       call radius_weights(part, radius, weights, slopes)
+      call weigh_points(size(part%loads, 2), place, first, points)
       total = 0.0_wp
-      by_load = 0.0_wp
-      along = 0.0_wp
+      along_load = 0.0_wp
+      along_radius = 0.0_wp
       do k = 1, size(weights)
-         call log_length(part%log_lengths(:, :, k), place, value, slope)
-         total = total + weights(k)*value
-         by_load = by_load + weights(k)*slope
-         along = along + slopes(k)*value
+         associate (left => part%log_lengths(:, :, first, k), right => part%log_lengths(:, :, first + 1, k))
+            values = points(1, 1)*left(:, 1) + points(2, 1)*left(:, 2) + points(3, 1)*right(:, 1) + points(4, 1)*right(:, 2)
+            total = total + weights(k)*values
+            along_radius = along_radius + slopes(k)*values
+            along_load = along_load + weights(k)*(points(1, 2)*left(:, 1) + points(2, 2)*left(:, 2) + points(3, 2)*right(:, 1) &
+               & + points(4, 2)*right(:, 2))
+         end associate
       end do
-      length = part%length*exp(total)
-      by_radius = along
-   end subroutine effective_length
+      total = part%length*exp(total)
+      lengths = line_lengths_t(total(1), total(2), total(3))
+      by_load = line_lengths_t(along_load(1), along_load(2), along_load(3))
+      by_radius = line_lengths_t(along_radius(1), along_radius(2), along_radius(3))
+   end subroutine effective_lengths
 
    !> Lagrange's weights of the radii, and their derivatives over ln(R); beyond the radii those at their end.
    pure subroutine radius_weights(part, radius, weights, slopes)
@@ -314,7 +369,7 @@ contains
       end associate
    end subroutine radius_weights
 
-   !> Loads of the slices: between the points of the table along cubic polynomials, beyond them as at the last point.
+   !> Loads of the slices: between the points of the table along cubic polynomials, beyond them with the shape of the last point.
    pure subroutine slice_loads(part, load, radius, loads)
       !> The table
       type(axial_part_t), intent(in) :: part
@@ -356,7 +411,8 @@ contains
       width = part%length/size(part%loads, 1)
    end function slice_width
 
-   !> Largest load along the roller and at its ends.
+   !> Largest load along the roller and at its ends. Below the smallest load of the table, where slices would not resolve them, both
+   !> grow over the mean as the contact gets shorter with its shape kept.
    pure function axial_state(part, load, radius) result(state)
       !> The table
       type(axial_part_t), intent(in) :: part
@@ -367,6 +423,9 @@ contains
 
       ! Loads of the slices; largest load between three slices, as a parabola has it: its place among them [-]
       real(wp) :: loads(size(part%loads, 1)), bend, offset
+      ! Smallest load of the table [N]; lengths there and here [m], their slopes [-]
+      real(wp) :: least
+      type(line_lengths_t) :: known, lengths, slopes(2)
       integer :: n, top
 
       n = size(loads)
@@ -385,6 +444,12 @@ contains
       ! The middle has no rounding whose mean could be looked for
       if (abs(state%place) < sqrt(epsilon(1.0_wp))*part%length) state%place = 0.0_wp
       state%ends = loads([1, n])
+      least = part%modulus*part%length**2*exp(part%first)
+      if (load >= least) return
+      call effective_lengths(part, least, radius, known, slopes(1), slopes(2))
+      call effective_lengths(part, load, radius, lengths, slopes(1), slopes(2))
+      state%peak = state%peak*(known%mean/lengths%mean)
+      state%ends = state%ends*(known%mean/lengths%mean)
    end function axial_state
 
 end module camroller_axial_table

@@ -13,7 +13,7 @@ module camroller_traction
 
    public :: traction_t, shear_law_names, limit_names, cap_names, rolling_law_names
    public :: film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, sliding_direction, &
-      & rolling_resistance, resistance_speed_slope
+      & rolling_resistance, resistance_speed_slope, resistance_length_slope, line_lengths_t, same_lengths
    public :: law_newtonian, law_eyring, limit_local, cap_smooth, cap_sharp, rolling_biboulet_houpert, &
       & rolling_goksem_hargreaves, rolling_none
 
@@ -49,6 +49,17 @@ module camroller_traction
       !> Does rolling resistance act on the roller's spin?
       logical :: in_roller_balance = .true.
    end type traction_t
+
+   !> Lengths of the one line contact that stands for a roller whose load per length w is not the same all along it: of its mean
+   !> weighted with the load, `W^2/int w^2 dy`; of its mean root, `(int sqrt(w) dy)^2/W`; of all that is loaded [m]. Or changes of
+   !> their logarithms [-].
+   type :: line_lengths_t
+      !> The three [m]
+      real(wp) :: mean = 0.0_wp, root = 0.0_wp, loaded = 0.0_wp
+   end type line_lengths_t
+
+   !> Exponent of the load group in the law of Goksem and Hargreaves [-]
+   real(wp), parameter :: load_exponent = 0.0126_wp
 
 contains
 
@@ -241,7 +252,10 @@ contains
    !> Goksem and Hargreaves (1978), elastic regime: `F_r = 4.318 (G U)^0.658 W*^0.0126 L R/alpha`; Islam (2019) eq. (39).
    !> Biboulet and Houpert (2010), doi 10.1243/13506501JET790, rigid to elastic: with U2 = 2 U and M2 = W*/sqrt(U2),
    !> `F_r/(E' R L) = W*^1.5 T`, `T = 1.4/M2 / (1 + ((1.4/1.45) sqrt(M2))^10)^0.1`.
-   elemental subroutine rolling_resistance(law, speed_group, load_group, modulus, radius, length, pressure_viscosity, force, &
+   !>
+   !> Where the load differs along the roller, what its parts resist is added up in each regime: with the root of the load in the
+   !> rigid one, whatever the load in the elastic one; Goksem and Hargreaves' law, nearly so, counts as elastic.
+   elemental subroutine rolling_resistance(law, speed_group, load_group, modulus, radius, lengths, pressure_viscosity, force, &
       & log_slope)
       !> Position in `rolling_law_names`
       integer, intent(in) :: law
@@ -253,8 +267,8 @@ contains
       real(wp), intent(in) :: modulus
       !> Equivalent radius, R [m]
       real(wp), intent(in) :: radius
-      !> Length of the contact, L [m]
-      real(wp), intent(in) :: length
+      !> Lengths of the contact; the load group is that of L = `lengths%mean` [m]
+      type(line_lengths_t), intent(in) :: lengths
       !> Pressure-viscosity coefficient, alpha [1/Pa]
       real(wp), intent(in) :: pressure_viscosity
       !> Rolling resistance [N]
@@ -262,8 +276,8 @@ contains
       !> d ln(force)/d ln(load group) [-]
       real(wp), intent(out) :: log_slope
 
-      ! sqrt(2 U) [-]
-      real(wp) :: root
+      ! sqrt(2 U); lengths of both regimes over that of the load group [-]
+      real(wp) :: root, rigid, elastic
       ! M2 (1.4/1.45)^2; its power 5 or -5, the smaller of both, then what it multiplies the force by [-]
       real(wp) :: regime, blend
       ! Blend whose fourth power is round-off [-]
@@ -272,21 +286,23 @@ contains
       force = 0.0_wp
       log_slope = 0.0_wp
       if (speed_group <= 0.0_wp .or. load_group <= 0.0_wp) return
+      rigid = lengths%root/lengths%mean
+      elastic = lengths%loaded/lengths%mean
       select case (law)
       case (rolling_goksem_hargreaves)
-         force = 4.318_wp*(pressure_viscosity*modulus*speed_group)**0.658_wp*load_group**0.0126_wp &
-            & *length*radius/pressure_viscosity
-         log_slope = 0.0126_wp
+         force = 4.318_wp*(pressure_viscosity*modulus*speed_group)**0.658_wp*(load_group/elastic)**load_exponent &
+            & *lengths%loaded*radius/pressure_viscosity
+         log_slope = load_exponent
       case (rolling_biboulet_houpert)
          root = sqrt(2.0_wp*speed_group)
-         regime = load_group/root*(1.4_wp/1.45_wp)**2
+         regime = load_group/root*(1.4_wp/1.45_wp)**2*(rigid/elastic**2)
          if (regime < 1.0_wp) then
             blend = regime**5
-            force = 1.4_wp*sqrt(load_group)*root
+            force = 1.4_wp*sqrt(load_group*rigid)*root
             log_slope = 0.5_wp/(1.0_wp + blend)
          else
             blend = (1.0_wp/regime)**5
-            force = 1.45_wp*root*sqrt(root)
+            force = 1.45_wp*root*sqrt(root)*elastic
             log_slope = 0.5_wp*blend/(1.0_wp + blend)
          end if
          if (blend < small_blend) then
@@ -295,9 +311,34 @@ contains
          else
             blend = (1.0_wp + blend)**(-0.1_wp)
          end if
-         force = force*blend*modulus*radius*length
+         force = force*blend*modulus*radius*lengths%mean
       end select
    end subroutine rolling_resistance
+
+   !> The same lengths for a load that is the same all along the contact.
+   elemental function same_lengths(length) result(lengths)
+      !> Length of the contact [m]
+      real(wp), intent(in) :: length
+      !> The lengths [m]
+      type(line_lengths_t) :: lengths
+
+      lengths = line_lengths_t(length, length, length)
+   end function same_lengths
+
+   !> Change of the rolling resistance, its logarithm, with the lengths of the contact at the same load group.
+   elemental function resistance_length_slope(law, load_slope, change) result(slope)
+      !> Position in `rolling_law_names`
+      integer, intent(in) :: law
+      !> d ln(force)/d ln(load group) [-]
+      real(wp), intent(in) :: load_slope
+      !> Changes of the lengths, their logarithms [-]
+      type(line_lengths_t), intent(in) :: change
+      !> The change [-]
+      real(wp) :: slope
+
+      slope = load_slope*change%mean + (1.0_wp - load_slope)*change%loaded
+      if (law == rolling_biboulet_houpert) slope = slope + load_slope*(change%root - change%loaded)
+   end function resistance_length_slope
 
    !> Logarithmic slope of the rolling resistance over the speed group, from the one over the load group.
    !>

@@ -291,7 +291,7 @@ contains
       if (has_pin_film(model)) contact%bearing_torque = contact%bearing_torque + slopes%bearing_torque*shift
       call rebalance(model, position, moment, basis%setting, hinge, contact)
 
-      contact%length = contact%length*(1.0_wp + basis%parts%length_by_load*shift)
+      contact%length = contact%length*(1.0_wp + basis%parts%lengths_by_load%mean*shift)
       contact%half_width = half_width(contact%load, position%equivalent_radius, contact%length, model%modulus)
       contact%apparent_area = 2.0_wp*contact%half_width*contact%length
       contact%film_min = contact%film_min*(1.0_wp + slopes%film_ratio*shift)

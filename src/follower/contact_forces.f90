@@ -3,18 +3,18 @@
 !> In: model, geometry, sliding speed, load. Out: `contact_t` and `slopes_t`. The load is found by `contact`.
 module camroller_contact_forces
    use camroller_kinds, only : wp
-   use camroller_axial_table, only : effective_length
+   use camroller_axial_table, only : effective_lengths
    use camroller_cam_surface, only : meet_surfaces
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
-   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_change, release_contact
+   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_changes, release_contact
    use camroller_contact_traction, only : set_traction, follow_traction
    use camroller_heat, only : inlet_factor
    use camroller_hertz, only : half_width, peak_pressure
    use camroller_film, only : groups_t, new_film_line
    use camroller_load_share, only : share_change_t, share_load, improve_share, share_change
    use camroller_traction, only : mobilised_share, sliding_direction, rolling_resistance, resistance_speed_slope, &
-      & rolling_biboulet_houpert
+      & resistance_length_slope, rolling_biboulet_houpert, line_lengths_t, same_lengths
    use camroller_needle, only : bearing_torque, bearing_torque_slope
    use camroller_needle_drag, only : drag_torque, drag_torque_slope
    use camroller_pin_film, only : pin_state_t, solve_pin, unloaded_torque
@@ -223,15 +223,20 @@ contains
       !> Relative change of the film ratio that was made; its square is about the error left [-]
       real(wp), intent(out) :: change
 
+      ! Lengths of the contact [m]
+      type(line_lengths_t) :: lengths
       ! Part of the load group that the rolling law takes [-]
       real(wp) :: rolling_load
 
       contact%load = load
       contact%is_touching = .true.
       if (allocated(model%axial)) then
-         call effective_length(model%axial, load, position%equivalent_radius, contact%length, parts%length_by_load, &
-            & parts%length_by_radius)
+         call effective_lengths(model%axial, load, position%equivalent_radius, lengths, parts%lengths_by_load, &
+            & parts%lengths_by_radius)
+         contact%length = lengths%mean
          setting%scale = model%modulus*position%equivalent_radius*contact%length
+      else
+         lengths = same_lengths(contact%length)
       end if
       contact%half_width = half_width(load, position%equivalent_radius, contact%length, model%modulus)
       contact%apparent_area = 2.0_wp*contact%half_width*contact%length
@@ -254,7 +259,7 @@ contains
       rolling_load = parts%load_group
       if (model%rolling_law == rolling_biboulet_houpert) rolling_load = parts%share%film_load
       call rolling_resistance(model%rolling_law, setting%line%groups%speed, rolling_load, model%modulus, &
-         & position%equivalent_radius, contact%length, model%oil%pressure_viscosity, contact%rolling_resistance, &
+         & position%equivalent_radius, lengths, model%oil%pressure_viscosity, contact%rolling_resistance, &
          & parts%rolling_load_slope)
       parts%rolling_speed_slope = resistance_speed_slope(model%rolling_law, parts%rolling_load_slope)
       contact%rolling_resistance = sign(contact%rolling_resistance, contact%entrainment_speed)
@@ -316,12 +321,14 @@ contains
       type(slopes_t) :: slopes
 
       type(share_change_t) :: change
-      ! Changes of load group, length, radius over roughness and rolling resistance, their logarithms [-]
-      real(wp) :: group, length, relative, rolling
+      ! Changes of the lengths, their logarithms [-]
+      type(line_lengths_t) :: lengths
+      ! Changes of load group, radius over roughness and rolling resistance, their logarithms [-]
+      real(wp) :: group, relative, rolling
 
-      length = length_change(parts, motion)
+      lengths = length_changes(parts, motion)
       relative = motion%radius - motion%roughness
-      group = motion%load - motion%radius - length
+      group = motion%load - motion%radius - lengths%mean
       slopes%inlet_factor = 0.0_wp
       if (allocated(model%heat)) then
          slopes%inlet_factor = parts%heat%inlet_by_speed*motion%entrainment + parts%heat%inlet_by_sliding*motion%sliding_speed &
@@ -338,8 +345,8 @@ contains
 
       rolling = group
       if (model%rolling_law == rolling_biboulet_houpert) rolling = change%film_load
-      rolling = motion%radius + length + parts%rolling_load_slope*rolling &
-         & + parts%rolling_speed_slope*(motion%entrainment - motion%radius)
+      rolling = motion%radius + resistance_length_slope(model%rolling_law, parts%rolling_load_slope, lengths) &
+         & + parts%rolling_load_slope*rolling + parts%rolling_speed_slope*(motion%entrainment - motion%radius)
       slopes%rolling_resistance = contact%rolling_resistance*rolling
       slopes%tangential_force = slopes%traction + slopes%rolling_resistance*parts%rolling_part &
          & + contact%rolling_resistance*(parts%rolling_part + 1.0_wp)*motion%radius

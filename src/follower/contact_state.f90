@@ -5,10 +5,11 @@ module camroller_contact_state
    use camroller_cam_surface, only : meeting_t
    use camroller_film, only : film_line_t
    use camroller_load_share, only : share_t
+   use camroller_traction, only : line_lengths_t
    implicit none
    private
 
-   public :: contact_t, setting_t, heat_slopes_t, parts_t, motion_t, slopes_t, length_change, release_contact
+   public :: contact_t, setting_t, heat_slopes_t, parts_t, motion_t, slopes_t, length_changes, release_contact
 
    !> State of the contact
    type :: contact_t
@@ -110,8 +111,8 @@ module camroller_contact_state
       type(heat_slopes_t) :: heat
       !> Logarithmic slopes of the rolling resistance over load and speed group [-]
       real(wp) :: rolling_load_slope, rolling_speed_slope
-      !> Derivatives of the logarithm of the contact's length over ln(load) and ln(radius) [-]
-      real(wp) :: length_by_load = 0.0_wp, length_by_radius = 0.0_wp
+      !> Derivatives of the logarithms of the contact's lengths over ln(load) and ln(radius) [-]
+      type(line_lengths_t) :: lengths_by_load, lengths_by_radius
       !> 2 R/r_R - 1 [-]
       real(wp) :: rolling_part
       !> Derivatives of the torque of a pin with a film over ln(load) [N m] and spin [N m s/rad], less that without load
@@ -146,17 +147,21 @@ module camroller_contact_state
 
 contains
 
-   !> Change of the contact's length along a motion, its logarithm.
-   elemental function length_change(parts, motion) result(change)
+   !> Changes of the contact's lengths along a motion, their logarithms.
+   elemental function length_changes(parts, motion) result(change)
       !> What slopes are made of
       type(parts_t), intent(in) :: parts
       !> Direction of the motion
       type(motion_t), intent(in) :: motion
-      !> The change [-]
-      real(wp) :: change
+      !> The changes [-]
+      type(line_lengths_t) :: change
 
-      change = parts%length_by_load*motion%load + parts%length_by_radius*motion%radius
-   end function length_change
+      associate (by_load => parts%lengths_by_load, by_radius => parts%lengths_by_radius)
+         change%mean = by_load%mean*motion%load + by_radius%mean*motion%radius
+         change%root = by_load%root*motion%load + by_radius%root*motion%radius
+         change%loaded = by_load%loaded*motion%load + by_radius%loaded*motion%radius
+      end associate
+   end function length_changes
 
    !> No contact: no force but the drag of the roller's bearing; the film is reported as zero, since there is none to speak of.
    pure subroutine release_contact(contact)

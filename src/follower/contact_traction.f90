@@ -12,12 +12,13 @@ module camroller_contact_traction
    use camroller_asperity, only : find_boundary_friction, has_one_coefficient
    use camroller_boundary_law, only : follows_temperature
    use camroller_conjunction, only : hot_oil_t, sheared_film_t, film_shear_t, flash_resistance, film_resistance, hot_shear
-   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_change
+   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_changes
    use camroller_load_share, only : share_change_t
    use camroller_local_limit, only : limited_shear_t, locally_limited_shear, stress_limit_t
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_model, only : model_t
-   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, law_newtonian
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, law_newtonian, &
+      & line_lengths_t
    implicit none
    private
 
@@ -372,21 +373,24 @@ contains
       !> Gets the changes of traction, its parts and the temperatures
       type(slopes_t), intent(inout) :: slopes
 
-      ! Changes of length, apparent area, pressure in the film and central film, their logarithms [-]; of the shear, of boundary
-      ! friction with its limit, and with the part of it that slip mobilises [N]
-      real(wp) :: length, area, pressure, film, shear, boundary, mobilised
+      ! Changes of the lengths, their logarithms [-]
+      type(line_lengths_t) :: lengths
+      ! Changes of apparent area, pressure in the film and central film, their logarithms [-]; of the shear, of boundary friction
+      ! with its limit, and with the part of it that slip mobilises [N]
+      real(wp) :: area, pressure, film, shear, boundary, mobilised
       ! Change of the limit of boundary friction [N], and with the temperature of the surfaces [N/K]
       real(wp) :: capacity, own
 
-      length = length_change(parts, motion)
-      area = 0.5_wp*(motion%load + motion%radius + length)
+      lengths = length_changes(parts, motion)
+      area = 0.5_wp*(motion%load + motion%radius + lengths%mean)
       film = change%film_central + motion%radius
-      pressure = change%film_load + motion%radius + length - area + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
+      pressure = change%film_load + motion%radius + lengths%mean - area &
+         & + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
       shear = parts%free_shear*area + parts%pressure_slope*pressure + parts%speed_slope*(motion%sliding_speed &
          & - contact%sliding_speed*film)
       shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load*parts%limit_share &
          & + parts%by_speed*motion%sliding_speed
-      slopes%asperity_load = change%asperity_load*setting%scale + (motion%radius + length)*contact%asperity_load
+      slopes%asperity_load = change%asperity_load*setting%scale + (motion%radius + lengths%mean)*contact%asperity_load
       slopes%real_area = area*contact%real_area + contact%apparent_area*change%real_area_ratio
       capacity = 0.0_wp
       mobilised = 0.0_wp
@@ -430,6 +434,8 @@ contains
       !> Changes of the rises of film and surfaces [K]
       real(wp), intent(out) :: film_rise, flash_rise
 
+      ! Changes of the lengths, their logarithms [-]
+      type(line_lengths_t) :: lengths
       ! Sliding speed over area [1/(m s)]; change of ln(flash) [-]; changes of the speeds of the contact over cam and roller [m/s]
       real(wp) :: flux, flash, speeds(2)
       ! Changes of both rises with friction at the temperatures that are there: of their part that surfaces make times area over
@@ -444,7 +450,8 @@ contains
       associate (heat => parts%heat, ratio => parts%share%real_area_ratio)
          flux = abs(contact%sliding_speed)/contact%apparent_area
          speeds = contact%entrainment_speed*motion%entrainment + [0.5_wp, -0.5_wp]*motion%sliding_speed
-         flash = heat%flash_by_width*(area - length_change(parts, motion)) + sum(heat%flash_by_speed*speeds)
+         lengths = length_changes(parts, motion)
+         flash = heat%flash_by_width*(area - lengths%mean) + sum(heat%flash_by_speed*speeds)
          surfaces = heat%flash*flash*(abs(parts%shear)*(1.0_wp - ratio) + abs(contact%boundary_mobilised))
          film_given = contact%film_rise*(motion%sliding_speed/contact%sliding_speed - area) + flux*(surfaces &
             & + abs(parts%shear)*(heat%film*film - heat%flash*real_area_ratio) &

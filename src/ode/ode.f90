@@ -11,6 +11,7 @@ module camroller_ode
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
+   use camroller_step_control, only : control_t, next_step, shorter_step
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_straight, append_curve, least_segment, stop_margin
    use camroller_step_checks, only : check_step
    use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
@@ -19,12 +20,8 @@ module camroller_ode
 
    public :: problem_t, counters_t, method_t, options_t, step_t, integrate
 
-   !> Step-size control: part of the optimal step that is taken [-]
-   real(wp), parameter :: safety = 0.9_wp
-   !> Largest growth and shrinkage of a step [-]
-   real(wp), parameter :: max_growth = 5.0_wp, max_shrinkage = 0.2_wp
-   !> Error over tolerance below which smaller ones make no difference [-]
-   real(wp), parameter :: least_error = 1.0e-4_wp
+   !> Largest growth of a step; error over tolerance below which smaller ones make no difference [-]
+   real(wp), parameter :: max_growth = 5.0_wp, least_error = 1.0e-4_wp
 
    !> Where an integration stands
    type :: walk_t
@@ -174,8 +171,7 @@ contains
             else
                counters%rejected = counters%rejected + 1
                walk%was_rejected = .true.
-               walk%proposed = walk%step%length*max(max_shrinkage, &
-                  & safety*walk%step%scaled_error**(-1.0_wp/max(method%error_order, 1)))
+               walk%proposed = walk%step%length*shorter_step(method%error_order, walk%step%scaled_error)
             end if
          end if
          if (.not. allocated(error)) call check_progress(problem, method, options, walk, counters, error)
@@ -333,20 +329,16 @@ contains
       !> Where the integration stands, the step taken
       type(walk_t), intent(inout) :: walk
 
-      ! New step over this one, smallest error that counts [-]
-      real(wp) :: factor, error_in_use
+      real(wp) :: factor ! new step over this one [-]
 
-      error_in_use = max(walk%step%scaled_error, least_error)
-      factor = safety*error_in_use**(-method%proportional/method%error_order) &
-         & *walk%last_error**(method%integral/method%error_order)
-      factor = min(max_growth, max(max_shrinkage, factor))
+      call next_step(control_t(method%proportional, method%integral, least_error, max_growth), method%error_order, &
+         & walk%step%scaled_error, walk%last_error, factor)
       if (walk%was_rejected) factor = min(factor, 1.0_wp)
       if (walk%step%is_last) then
          walk%proposed = max(walk%proposed, walk%step%length*factor)
       else
          walk%proposed = walk%step%length*factor
       end if
-      walk%last_error = error_in_use
    end subroutine adapt_step
 
    !> Refuse an integration that does not come on.

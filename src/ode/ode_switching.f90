@@ -11,6 +11,7 @@ module camroller_ode_switching
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
+   use camroller_step_control, only : control_t, next_step, safety, shorter_step
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_straight, append_cubic, curve_state, least_segment, &
       & stop_margin
    implicit none
@@ -45,8 +46,8 @@ module camroller_ode_switching
       real(wp) :: kink = 0.0_wp
       !> Length of the step that was proposed before a kink cut it short [time]
       real(wp) :: whole = 0.0_wp
-      !> Error over tolerance of the last step that was not cut short [-]
-      real(wp) :: usual_error = 0.0_wp
+      !> Error over tolerance of the last step that was not cut short, of the last one that was accepted [-]
+      real(wp) :: usual_error = 0.0_wp, last_error = 1.0_wp
       !> Is the step cut short, to end at a kink? Has a step with a small enough error told where that is? Is the step one of
       !> Taylor's polynomial, past a kink?
       logical :: is_cut = .false., is_located = .false., is_hop = .false.
@@ -54,10 +55,11 @@ module camroller_ode_switching
 
    !> Shortest step, over the distance of numbers at its time [-]
    real(wp), parameter :: shortest_step = 16.0_wp
-   !> Part of the optimal step that is taken; largest growth and shrinkage of a step [-]
-   real(wp), parameter :: safety = 0.9_wp, max_growth = 4.0_wp, max_shrinkage = 0.2_wp
-   !> Error over tolerance below which smaller ones make no difference, and that of an impossible trial [-]
-   real(wp), parameter :: least_error = 1.0e-3_wp, impossible = 1.0e3_wp
+   !> Bodies in contact vibrate, which takes estimates of errors through zero: by the last error alone a fifth of all steps would be
+   !> too long and be tried again, by the last two a fiftieth
+   type(control_t), parameter :: control = control_t(proportional=0.7_wp, integral=0.4_wp, least_error=1.0e-3_wp, max_growth=4.0_wp)
+   !> Error over tolerance of an impossible trial [-]
+   real(wp), parameter :: impossible = 1.0e3_wp
    !> Kinks this near to the end of a step are at that end, over the step [-]
    real(wp), parameter :: near_end = 1.0e-3_wp
    !> Error over tolerance of a step in which a kink makes no difference: a contact that rests at zero but for rounding would end
@@ -220,7 +222,7 @@ contains
             walk%proposed = max(walk%proposed, length)
             return
          end if
-         factor = step_factor(method, walk%step%scaled_error)
+         call next_step(control, method%error_order, walk%step%scaled_error, walk%last_error, factor)
          if (was_rejected) factor = min(factor, 1.0_wp)
          walk%proposed = length*factor
          if (walk%is_cut) walk%proposed = max(walk%proposed, after_kink*walk%whole)
@@ -246,7 +248,7 @@ contains
 
       counters%rejected = counters%rejected + 1
       was_rejected = walk%step%scaled_error > 1.0_wp
-      factor = step_factor(method, walk%step%scaled_error)
+      factor = shorter_step(method%error_order, walk%step%scaled_error)
       walk%is_cut = .not. ends_at_kink(walk) .and. (.not. was_rejected .or. walk%kink < factor .or. .not. walk%is_cut)
       walk%is_located = walk%is_cut .and. .not. was_rejected
       walk%proposed = walk%step%length*min(factor, safety)
@@ -256,19 +258,6 @@ contains
       walk%proposed = way
       if (method%needs_jacobian .and. way > 2.0_wp*margin*walk%whole) walk%proposed = way - margin*walk%whole
    end subroutine reject_step
-
-   !> Part of a step that the next one is, by its error.
-   pure function step_factor(method, scaled_error) result(factor)
-      !> The method
-      class(method_t), intent(in) :: method
-      !> Error over tolerance [-]
-      real(wp), intent(in) :: scaled_error
-      !> The part [-]
-      real(wp) :: factor
-
-      factor = safety*max(scaled_error, least_error)**(-1.0_wp/method%error_order)
-      factor = min(max_growth, max(max_shrinkage, factor))
-   end function step_factor
 
    !> Step that the proposal, the largest step, stability and the end of the segment allow.
    subroutine choose_step(problem, method, options, walk, counters)

@@ -91,7 +91,8 @@ contains
          & column_t("mean_torque_friction", "all friction", "N mm", 1.0e3_wp), &
          & column_t("fmep_friction", "fmep", "kPa", 1.0e-3_wp), &
          & column_t("mean_slip_ratio", "mean slip", "%", 1.0e2_wp), &
-         & column_t("max_hertz_pressure", "peak pressure", "GPa", 1.0e-9_wp), &
+         & column_t(merge("max_axial_pressure_max", "max_hertz_pressure    ", &
+         & has_member(file, "/summary/max_axial_pressure_max")), "peak pressure", "GPa", 1.0e-9_wp), &
          & column_t("min_film_thickness_min", "smallest film", "um", 1.0e6_wp), &
          & column_t("min_film_ratio", "film ratio", "1", 1.0_wp)]
       columns = pack(columns, columns%heading /= "")

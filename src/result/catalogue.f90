@@ -246,10 +246,12 @@ contains
       call add(list, "hertz_half_width", "m", "half width of the dry contact", "hertz", state%contact%half_width)
       call add(list, "hertz_pressure", "Pa", "peak pressure of the dry contact", "hertz", &
          & peak_pressure(state%contact%load, state%position%equivalent_radius, state%contact%length, model%modulus))
-      call add(list, "film_thickness_min", "m", "minimum film thickness", "film", state%contact%film_min)
-      call add(list, "film_thickness_central", "m", "central film thickness", "film", state%contact%film_central)
+      call add(list, "film_thickness_min", "m", "minimum film thickness; zero without contact", "film", state%contact%film_min)
+      call add(list, "film_thickness_central", "m", "central film thickness; zero without contact", "film", &
+         & state%contact%film_central)
       if (allocated(case%roller_profile)) call add_axial_film(list, model, state, along)
-      call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
+      call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness; zero "// &
+         & "without contact", "film", state%contact%film_ratio)
       if (allocated(case%heat)) call add_heat(list, case, state)
       if (allocated(case%asperity)) call add_asperities(list, case, state)
       call add(list, "friction_hydrodynamic", "N", "shear force of the film", "traction", state%contact%shear)

@@ -12,13 +12,14 @@ module camroller_cycle_remarks
    use camroller_film_range, only : matters, range_in_words
    use camroller_flexible_report, only : judge_train
    use camroller_margins, only : margins_t
+   use camroller_follower_samples, only : thinnest_film_allowed => thinnest_film
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
    use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
-      & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rolling_out_of_range, rubbing_pin, &
-      & standing_entrainment, unloaded_end, unresolved_slip
+      & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rolling_out_of_range, rubbing_contact, &
+      & rubbing_pin, standing_entrainment, unloaded_end, unresolved_slip, yielding_surface
    use camroller_result, only : find_quantity, lobe_scope, quantity_t
    implicit none
    private
@@ -32,6 +33,10 @@ module camroller_cycle_remarks
    real(wp), parameter :: thickest_film = 0.01_wp
    !> Film over roughness of a pin below which the law of smooth surfaces lets the film carry what asperities would [-]
    real(wp), parameter :: thinnest_film = 0.5_wp
+   !> Pressure over hardness at which a line contact yields below its surface: 1.8 yield stresses, of which hardness is about three
+   !> (Johnson 1985, sections 4.5 and 6.3) [-]; contact stress that the static load rating of roller bearings allows (ISO 76:2006)
+   !> [Pa]
+   real(wp), parameter :: yield_part = 0.6_wp, static_limit = 4.0e9_wp
    !> Intervals without contact that a remark lists
    integer, parameter :: most_intervals = 4
 
@@ -103,11 +108,11 @@ contains
       remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
    end subroutine judge_films
 
-   !> Say that the contact's pressure is above that to which the law of viscosity over pressure holds.
+   !> Say that the contact's pressure is above that to which the law of viscosity over pressure holds, or what its surfaces stand.
    subroutine judge_pressure(model, largest, lobe, remarks)
       !> Model of the lobe
       type(model_t), intent(in) :: model
-      !> Its largest Hertz pressure [Pa]
+      !> Its largest pressure, of the dry contact [Pa]
       real(wp), intent(in) :: largest
       !> Lobe shape to be named; 0 where there is one alone
       integer, intent(in) :: lobe
@@ -115,18 +120,33 @@ contains
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       real(wp) :: limit ! [Pa]
-      integer :: last
+      character(len=:), allocatable :: reached
+      integer :: first, i
 
+      if (.not. allocated(remarks)) allocate (remarks(0))
+      first = size(remarks) + 1
       limit = pressure_limit(model%lubricant)
-      if (largest <= limit) return
-      call add_remark(remarks, beyond_pressure_law, "the pressure goes up to "//number_text(1.0e-9_wp*largest, 3)// &
-         & " GPa; the law '"//trim(model%lubricant%pressure_law)//"' of viscosity over pressure holds to about "// &
-         & number_text(1.0e-9_wp*limit, 2)//" GPa, and traction and slip follow it (pressure_law = 'roelands' has no such limit)", &
-         & largest/limit)
+      reached = "the pressure goes up to "
+      call append_number(reached, 1.0e-9_wp*largest, 3)
+      reached = reached//" GPa; "
+      if (largest > limit) call add_remark(remarks, beyond_pressure_law, reached//"the law '"// &
+         & trim(model%lubricant%pressure_law)//"' of viscosity over pressure holds to about "//number_text(1.0e-9_wp*limit, 2)// &
+         & " GPa, and traction and slip follow it (pressure_law = 'roelands' has no such limit)", largest/limit)
+      limit = static_limit
+      if (model%hardness > 0.0_wp) limit = yield_part*model%hardness
+      if (largest > limit .and. model%hardness > 0.0_wp) then
+         call add_remark(remarks, yielding_surface, reached//"from "//number_text(1.0e-9_wp*limit, 2)//" GPa on, "// &
+            & number_text(yield_part, 1)//" of materials.hardness_GPa, the softer body yields below its surface, which is "// &
+            & "elastic here", largest/limit)
+      else if (largest > limit) then
+         call add_remark(remarks, yielding_surface, reached//"even the hard steel of roller bearings stands "// &
+            & number_text(1.0e-9_wp*limit, 2)//" GPa (ISO 76), and bodies are elastic here", largest/limit)
+      end if
       if (lobe == 0) return
-      last = size(remarks)
-      remarks(last)%lobe = lobe
-      remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
+      do i = first, size(remarks)
+         remarks(i)%lobe = lobe
+         remarks(i)%text = trim(lobe_scope(lobe))//": "//remarks(i)%text
+      end do
    end subroutine judge_pressure
 
    !> Say that the film on the roller's pin is too thin for its law.
@@ -299,6 +319,7 @@ contains
          & "Gupta and others can tell for "//number_text(100.0_wp*statistics%inlet_share, 3)//" % of the cycle: the pressure's "// &
          & "part alone would halve the film; a continuation stands for it", 100.0_wp*statistics%inlet_share)
       if (statistics%rolling_share > 0.0_wp) call check_rolling(statistics, remarks)
+      if (statistics%thin_share > 0.0_wp) call check_thin_film(allocated(model%boundary), statistics, remarks)
       if (statistics%film_range%share <= 0.0_wp) return
       call range_in_words(statistics%film_range, model%film_law, words)
       text = "the film law is outside its published range for "
@@ -331,6 +352,31 @@ contains
       call append_cam_angle(text, statistics%rolling_angle, 1)
       call add_remark(remarks, rolling_out_of_range, text, 100.0_wp*statistics%rolling_share)
    end subroutine check_rolling
+
+   !> Say that the film is next to nothing beside the roughness.
+   pure subroutine check_thin_film(has_asperities, statistics, remarks)
+      !> Does the case have asperities?
+      logical, intent(in) :: has_asperities
+      !> Means over the cycle of a lobe
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=:), allocatable :: text
+
+      text = "the film between cam and roller is below "
+      call append_number(text, thinnest_film_allowed, 2)
+      text = text//" of the roughness for "
+      call append_number(text, 100.0_wp*statistics%thin_share, 3)
+      text = text//" % of the cycle, down to "
+      call append_number(text, statistics%thinnest_ratio, 2)
+      text = text//" at "
+      call append_cam_angle(text, statistics%thinnest_angle, 1)
+      text = text//"; laws for smooth surfaces leave the film load there that asperities would carry, and friction may be far "// &
+         & "too small"
+      if (.not. has_asperities) text = text//"; without &asperity none is counted"
+      call add_remark(remarks, rubbing_contact, text, 100.0_wp*statistics%thin_share)
+   end subroutine check_thin_film
 
    !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
    !> does that of every film where the largest has no limit. Dampers count by the largest of them: they are one loss together.

@@ -14,19 +14,20 @@ module camroller_follower_samples
    use camroller_catalogue, only : follower_values
    use camroller_torque_list, only : torque_count, of_geometric, of_roller_inertia
    use camroller_contact_forces, only : contact_t, film_groups
-   use camroller_film, only : groups_t, is_in_range
+   use camroller_film, only : groups_t, is_in_range, takes_whole_load
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
-   use camroller_axial_table, only : slice_width
+   use camroller_axial_table, only : effective_lengths, slice_width
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
-   use camroller_traction, only : rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_resistance
+   use camroller_traction, only : rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_resistance, line_lengths_t, &
+      & same_lengths
    implicit none
    private
 
-   public :: shares_t, add_shares, follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of, &
-      & extremes_t, widen, trail_t, contact_ahead, extend_trail
+   public :: shares_t, add_shares, thinnest_film, follower_samples_t, start_samples, sampled_values, entrainment_t, &
+      & entrainment_of, extremes_t, widen, trail_t, contact_ahead, extend_trail
 
    !> Fractions of a cycle without contact and outside the film law's range
    type :: shares_t
@@ -46,6 +47,9 @@ module camroller_follower_samples
       !> Fraction of the cycle with more than `rolling_excess_allowed` of the rolling resistance of a law for all contacts [-]; the
       !> largest part of it [-], and its cam angle from full lift [rad]
       real(wp) :: rolling_share = 0.0_wp, rolling_excess = 0.0_wp, rolling_angle = 0.0_wp
+      !> Fraction of the cycle with a film below `thinnest_film` of the roughness [-]; the smallest part of it [-], and its cam
+      !> angle from full lift [rad]
+      real(wp) :: thin_share = 0.0_wp, thinnest_ratio = huge(1.0_wp), thinnest_angle = 0.0_wp
    end type shares_t
 
    !> One point of a cycle, for the search of standstills, of pure rolling, and of ends of the roller that begin to carry load
@@ -108,6 +112,10 @@ module camroller_follower_samples
    !> Rolling resistance over that by a law for all contacts, from which on a word is due: in elastic contacts the laws are closer
    !> to each other (test_traction) [-]
    real(wp), parameter :: rolling_excess_allowed = 2.0_wp
+   !> Film over roughness of a contact from which down a word is due: laws for smooth surfaces and Greenwood and Tripp's asperities
+   !> then share the load as if these still stood on a film. Hot oil at low speed, where roughness is a few times the film, is mixed
+   !> friction as the source has it; a tenth is beyond that [-]
+   real(wp), parameter :: thinnest_film = 0.1_wp
 
 contains
 
@@ -144,9 +152,29 @@ contains
          if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, state, angle, weight)
          if (model%rolling_law == rolling_goksem_hargreaves .and. state%contact%is_touching) call note_rolling(shares, model, &
             & state, groups, angle, weight)
+         if (state%contact%is_touching .and. .not. takes_whole_load(model%film_law)) &
+            & call note_thin(shares, state%contact%film_ratio, angle, weight)
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares
+
+   !> Note where the film of a law for smooth surfaces is next to nothing beside the roughness.
+   pure subroutine note_thin(shares, film_ratio, angle, weight)
+      !> The fractions
+      class(shares_t), intent(inout) :: shares
+      !> Film over roughness [-]
+      real(wp), intent(in) :: film_ratio
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Fraction of the cycle that the state represents [-]
+      real(wp), intent(in) :: weight
+
+      if (film_ratio >= thinnest_film) return
+      shares%thin_share = shares%thin_share + weight
+      if (film_ratio >= shares%thinnest_ratio) return
+      shares%thinnest_ratio = film_ratio
+      shares%thinnest_angle = angle
+   end subroutine note_thin
 
    !> Note where the law of Goksem and Hargreaves, a fit to elastic contacts that hardly knows the load, is used for a rigid one,
    !> whose rolling resistance vanishes with the load: it is compared with the law of Biboulet and Houpert, which has both.
@@ -164,11 +192,16 @@ contains
       !> Fraction of the cycle that the state represents [-]
       real(wp), intent(in) :: weight
 
+      ! Lengths of the contact [m] and their slopes [-]
+      type(line_lengths_t) :: lengths, by_load, by_radius
       ! Rolling resistance by the other law [N], its slope over the load, the one over the other [-]
       real(wp) :: force, log_slope, excess
 
+      lengths = same_lengths(state%contact%length)
+      if (allocated(model%axial)) call effective_lengths(model%axial, state%contact%load, state%position%equivalent_radius, &
+         & lengths, by_load, by_radius)
       call rolling_resistance(rolling_biboulet_houpert, groups%speed, groups%load, model%modulus, &
-         & state%position%equivalent_radius, state%contact%length, model%oil%pressure_viscosity, force, log_slope)
+         & state%position%equivalent_radius, lengths, model%oil%pressure_viscosity, force, log_slope)
       if (.not. abs(state%contact%rolling_resistance) > rolling_excess_allowed*force) return
       shares%rolling_share = shares%rolling_share + weight
       excess = abs(state%contact%rolling_resistance)/max(force, tiny(1.0_wp))

@@ -63,6 +63,24 @@ contains
       call add(list, "film_thickness_axial_min", "m", "smallest minimum film along the roller", "roller_profile", film)
    end subroutine add_axial_film
 
+   !> Largest pressure of the dry contact: in the middle of its width, and where along the roller the load is largest.
+   pure function largest_pressure(model, state) result(pressure)
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower, in contact
+      type(state_t), intent(in) :: state
+      !> The pressure [Pa]
+      real(wp) :: pressure
+
+      associate (contact => state%contact, radius => state%position%equivalent_radius)
+         if (allocated(model%axial)) then
+            pressure = peak_pressure(state%along%peak*contact%load/model%contact_width, radius, 1.0_wp, model%modulus)
+         else
+            pressure = peak_pressure(contact%load, radius, contact%length, model%modulus)
+         end if
+      end associate
+   end function largest_pressure
+
    !> What asperities carry.
    pure subroutine add_asperities(list, case, state)
       !> List to extend
@@ -121,7 +139,7 @@ contains
       if (model%speed > 0.0_wp) period = two_pi/model%speed
       associate (contact => state%contact)
          if (allocated(case%wear)) then
-            peak = peak_pressure(contact%load, state%position%equivalent_radius, contact%length, model%modulus)
+            peak = largest_pressure(model, state)
             call add(list, "subsurface_shear_stress", "Pa", "largest shear stress below the surface, without traction", "wear", &
                & largest_shear*peak)
             call add(list, "orthogonal_shear_stress", "Pa", "largest shear stress along the surface below it, without traction", &
@@ -217,7 +235,7 @@ contains
       pressure = 0.0_wp
       if (allocated(model%axial) .and. state%contact%is_touching) then
          mean = state%contact%load/model%contact_width
-         pressure = peak_pressure(along%peak*mean, state%position%equivalent_radius, 1.0_wp, model%modulus)
+         pressure = largest_pressure(model, state)
          if (case%roller_profile%slice_series) call slice_loads(model%axial, state%contact%load, &
             & state%position%equivalent_radius, loads)
       end if

@@ -226,14 +226,15 @@ contains
       !> Gets the remarks; has its summary
       type(result_t), intent(inout) :: result
 
-      integer :: lobe, pin
+      integer :: lobe, pin, pressure
 
       do lobe = 1, size(models)
          associate (named => merge(lobe, 0, size(models) > 1))
             call judge_films(statistics(lobe), find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))// &
                & "asperity_friction_share") > 0, named, result%remarks)
-            call judge_pressure(models(lobe), result%summary_values(find_quantity(result%summary, "max_"// &
-               & trim(lobe_prefix(lobe))//"hertz_pressure")), named, result%remarks)
+            pressure = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"axial_pressure_max")
+            if (pressure == 0) pressure = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"hertz_pressure")
+            call judge_pressure(models(lobe), result%summary_values(pressure), named, result%remarks)
             pin = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"pin_film_min")
             if (pin > 0) call judge_pin(case%needle_bearing%film%roughness, result%summary_values(pin), named, result%remarks)
          end associate

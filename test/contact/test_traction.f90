@@ -5,7 +5,7 @@ module test_traction
    use camroller_error, only : error_t
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, mean_relative_viscosity
    use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, &
-      & sliding_direction, rolling_resistance, &
+      & sliding_direction, rolling_resistance, same_lengths, &
       cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
    implicit none
    private
@@ -240,7 +240,7 @@ contains
       real(wp) :: force
       real(wp) :: slope
 
-      call rolling_resistance(law, speed, load, modulus, radius, length, alpha, force, slope)
+      call rolling_resistance(law, speed, load, modulus, radius, same_lengths(length), alpha, force, slope)
       force = force/(modulus*radius*length)
    end function rolling
 
@@ -249,8 +249,8 @@ contains
       real(wp) :: force, slope
 
       ! G U = 1e-7, W* = 1: 4.318 10^(-4.606) L R/alpha = 4.318 2.477422e-5 3.113636e3
-      call rolling_resistance(rolling_goksem_hargreaves, 1.0e-7_wp/(alpha*modulus), 1.0_wp, modulus, radius, length, alpha, &
-         force, slope)
+      call rolling_resistance(rolling_goksem_hargreaves, 1.0e-7_wp/(alpha*modulus), 1.0_wp, modulus, radius, same_lengths(length), &
+         & alpha, force, slope)
       call check(error, force, 0.3330815_wp, thr=1.0e-6_wp, rel=.true.)
       if (allocated(error)) return
       call check(error, rolling(rolling_goksem_hargreaves, 1.0e-11_wp, 4.0e-4_wp) &
@@ -289,10 +289,10 @@ contains
       real(wp) :: load, left, right, left_slope, right_slope
 
       load = sqrt(2.0e-12_wp)*(1.45_wp/1.4_wp)**2
-      call rolling_resistance(rolling_biboulet_houpert, 1.0e-12_wp, load*(1.0_wp - 1.0e-14_wp), modulus, radius, length, alpha, &
-         left, left_slope)
-      call rolling_resistance(rolling_biboulet_houpert, 1.0e-12_wp, load*(1.0_wp + 1.0e-14_wp), modulus, radius, length, alpha, &
-         right, right_slope)
+      call rolling_resistance(rolling_biboulet_houpert, 1.0e-12_wp, load*(1.0_wp - 1.0e-14_wp), modulus, radius, &
+         & same_lengths(length), alpha, left, left_slope)
+      call rolling_resistance(rolling_biboulet_houpert, 1.0e-12_wp, load*(1.0_wp + 1.0e-14_wp), modulus, radius, &
+         & same_lengths(length), alpha, right, right_slope)
       call check(error, right, left, thr=roundings, rel=.true.)
       if (allocated(error)) return
       call check(error, right_slope, left_slope, thr=1.0e-13_wp)
@@ -328,7 +328,7 @@ contains
             do k = 0, 12
                load_group = least*10.0_wp**(0.25_wp*k)
                call rolling_resistance([rolling_goksem_hargreaves, rolling_biboulet_houpert], speed_group, load_group, modulus, &
-                  & radius, length, material/modulus, forces, slopes)
+                  & radius, same_lengths(length), material/modulus, forces, slopes)
                smallest = min(smallest, forces(1)/forces(2))
                largest = max(largest, forces(1)/forces(2))
             end do

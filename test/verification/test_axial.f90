@@ -1,11 +1,12 @@
 !> Load along the roller: slices against closed forms, the table made of them.
 module test_axial
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller_axial_table, only : axial_part_t, axial_state, axial_state_t, effective_length, new_axial_part, slice_loads
+   use camroller_axial_table, only : axial_part_t, axial_state, axial_state_t, effective_lengths, new_axial_part, slice_loads
    use camroller_error, only : error_t, kind_deck
    use camroller_kinds, only : wp, pi
    use camroller_roller_profile, only : roller_profile_t, profile_gap, profile_names
    use camroller_slices, only : slices_t, new_slices, load_slices, thin_line
+   use camroller_traction, only : line_lengths_t
    use closeness, only : check_close, check_scaled, expect_error, expect_success
    use random_decks, only : random_t, start_random, draw
    use roller_profiles, only : profiles
@@ -30,7 +31,6 @@ contains
          new_unittest("slices that do not see each other have a small tilt's load in closed form", test_small_tilt), &
          new_unittest("a tilted crown is the crown at another place", test_tilted_crown), &
          new_unittest("loads add up, and turning the roller round mirrors them", test_sum), &
-         new_unittest("slopes of the effective length are its difference quotients, inside and outside the table", test_slopes), &
          new_unittest("the table has the loads and the lengths of the slices between its points", test_table), &
          new_unittest("the largest load of a profile without tilt is in the middle, or always on the same side", test_sides), &
          new_unittest("loads are found for any profile, tilt, load and number of slices", test_all), &
@@ -292,43 +292,13 @@ contains
       end do
    end subroutine test_sum
 
-   subroutine test_slopes(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(axial_part_t) :: part
-      type(error_t), allocatable :: failure
-      real(wp), parameter :: h = 1.0e-5_wp
-      ! Length and its slopes; beside, by load and by radius
-      real(wp) :: middle, by_load, by_radius, low, high, unused(2), load
-      integer :: i, k
-
-      do k = 1, 4
-         call new_axial_part(part, profiles(k), roller_length, modulus, [5.0e-3_wp, 30.0e-3_wp], failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
-         do i = -10, 18
-            load = 1.9_wp**i
-            call effective_length(part, load, radius, middle, by_load, by_radius)
-            call check(error, middle > 0.0_wp .and. (by_load > -0.5_wp .and. by_load < 0.8_wp), "length")
-            if (allocated(error)) return
-            call effective_length(part, load*exp(-h), radius, low, unused(1), unused(2))
-            call effective_length(part, load*exp(h), radius, high, unused(1), unused(2))
-            ! third derivatives of a few, times h squared, and rounding over h
-            call check_scaled(error, by_load, log(high/low)/(2.0_wp*h), 1.0_wp, 1.0e-8_wp, "slope over the load")
-            if (allocated(error)) return
-            call effective_length(part, load, radius*exp(-h), low, unused(1), unused(2))
-            call effective_length(part, load, radius*exp(h), high, unused(1), unused(2))
-            call check_scaled(error, by_radius, log(high/low)/(2.0_wp*h), 1.0_wp, 1.0e-8_wp, "slope over the radius")
-            if (allocated(error)) return
-         end do
-      end do
-   end subroutine test_slopes
-
    subroutine test_table(error)
       type(error_type), allocatable, intent(out) :: error
       type(axial_part_t) :: part
       type(axial_state_t) :: state
       type(error_t), allocatable :: failure
-      real(wp) :: loads(41), solved(41), approach, load, along, unused(2)
+      type(line_lengths_t) :: lengths, unused(2)
+      real(wp) :: loads(41), solved(41), approach, load
       integer :: i, k
 
       do k = 1, 4
@@ -339,19 +309,20 @@ contains
             load = 10.0_wp*2.1_wp**i
             call solve(error, gaps_of(profiles(k), 41), k < 4, load, solved, approach)
             if (allocated(error)) return
-            call effective_length(part, load, radius, along, unused(1), unused(2))
+            call effective_lengths(part, load, radius, lengths, unused(1), unused(2))
             ! a point for each factor 1.8 of the load, less where the ends begin to carry; what slices make of a contact as narrow:
             ! the square of their part of it
-            call check_close(error, along, roller_length*41/sum(solved**2), 8.0e-3_wp + (roller_length/(41*along))**2, &
-               & "effective length")
+            call check_close(error, lengths%mean, roller_length*41/sum(solved**2), 8.0e-3_wp &
+               & + (roller_length/(41*lengths%mean))**2, "effective length")
             if (allocated(error)) return
             call slice_loads(part, load, radius, loads)
             ! a slice at the end of the contact comes in between two points
-            call check_scaled(error, maxval(abs(loads - solved)), 0.0_wp, maxval(solved), 2.0e-2_wp + roller_length/(41*along), &
-               & "loads")
+            call check_scaled(error, maxval(abs(loads - solved)), 0.0_wp, maxval(solved), 2.0e-2_wp &
+               & + roller_length/(41*lengths%mean), "loads")
             if (allocated(error)) return
             state = axial_state(part, load, radius)
-            call check_close(error, state%peak, maxval(solved), 2.0e-2_wp + roller_length/(41*along), "largest load")
+            call check_close(error, state%peak, maxval(solved), 2.0e-2_wp + roller_length/(41*lengths%mean), &
+               & "largest load")
             if (allocated(error)) return
          end do
       end do
@@ -393,8 +364,9 @@ contains
       type(axial_part_t) :: part
       type(error_t), allocatable :: failure
       type(random_t) :: random
-      ! Numbers from 0 to 1 [-]; slope over the load, unused one; length [m]
-      real(wp) :: x(8), by_load, by_radius, along
+      type(line_lengths_t) :: lengths, unused(2)
+      ! Numbers from 0 to 1 [-]
+      real(wp) :: x(8)
       integer :: i, k
 
       call start_random(random, 5)
@@ -414,8 +386,8 @@ contains
             if (allocated(error)) return
             cycle
          end if
-         call effective_length(part, 100.0_wp, 5.0e-3_wp, along, by_load, by_radius)
-         call check(error, along > 0.0_wp .and. along <= 1.05_wp*part%length, "length")
+         call effective_lengths(part, 100.0_wp, 5.0e-3_wp, lengths, unused(1), unused(2))
+         call check(error, lengths%mean > 0.0_wp .and. lengths%mean <= 1.05_wp*part%length, "length")
          if (allocated(error)) return
       end do
    end subroutine test_all

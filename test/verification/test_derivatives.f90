@@ -10,7 +10,7 @@ module test_derivatives
    use camroller_lubricant, only : lubricant_t, oil_t, pressure_law_names, get_oil, relative_viscosity, &
       & mean_relative_viscosity
    use camroller_traction, only : cap_names, rolling_law_names, eyring_shear, limit_shear, rolling_resistance, &
-      & resistance_speed_slope
+      & resistance_length_slope, resistance_speed_slope, line_lengths_t
    use camroller_needle, only : bearing_torque, bearing_torque_slope
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants
    use camroller_load_share, only : share_t, share_change_t, share_load, share_change
@@ -358,25 +358,43 @@ contains
 
    subroutine test_rolling(error)
       type(error_type), allocatable, intent(out) :: error
+      ! lengths of a load that is not the same along the roller, a change of their logarithms
+      type(line_lengths_t), parameter :: lengths = line_lengths_t(0.0137_wp, 0.0145_wp, 0.016_wp), &
+         & change = line_lengths_t(1.0_wp, 0.5_wp, -0.7_wp)
       real(wp) :: load, low, mid, high, slope, unused
       integer :: i, law
 
       do law = 1, 2
          do i = 0, 20
             load = 1.0e-7_wp*2.0_wp**i
-            call rolling_resistance(law, 1.0e-11_wp, load*exp(-h), 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, low, unused)
-            call rolling_resistance(law, 1.0e-11_wp, load, 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, mid, slope)
-            call rolling_resistance(law, 1.0e-11_wp, load*exp(h), 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, high, unused)
+            call rolling_resistance(law, 1.0e-11_wp, load*exp(-h), 2.0e11_wp, 0.005_wp, lengths, 2.2e-8_wp, low, unused)
+            call rolling_resistance(law, 1.0e-11_wp, load, 2.0e11_wp, 0.005_wp, lengths, 2.2e-8_wp, mid, slope)
+            call rolling_resistance(law, 1.0e-11_wp, load*exp(h), 2.0e11_wp, 0.005_wp, lengths, 2.2e-8_wp, high, unused)
             call check(error, abs(log(high/low)/(2.0_wp*h) - slope) < 10.0_wp*tolerance, rolling_law_names(law))
             if (allocated(error)) return
-            call rolling_resistance(law, 1.0e-11_wp*exp(-h), load, 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, low, unused)
-            call rolling_resistance(law, 1.0e-11_wp*exp(h), load, 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, high, unused)
+            call rolling_resistance(law, 1.0e-11_wp*exp(-h), load, 2.0e11_wp, 0.005_wp, lengths, 2.2e-8_wp, low, unused)
+            call rolling_resistance(law, 1.0e-11_wp*exp(h), load, 2.0e11_wp, 0.005_wp, lengths, 2.2e-8_wp, high, unused)
             call check(error, abs(log(high/low)/(2.0_wp*h) - resistance_speed_slope(law, slope)) < 10.0_wp*tolerance, &
                & "speed, "//rolling_law_names(law))
+            if (allocated(error)) return
+            call rolling_resistance(law, 1.0e-11_wp, load, 2.0e11_wp, 0.005_wp, moved(lengths, change, -h), 2.2e-8_wp, low, unused)
+            call rolling_resistance(law, 1.0e-11_wp, load, 2.0e11_wp, 0.005_wp, moved(lengths, change, h), 2.2e-8_wp, high, unused)
+            call check(error, abs(log(high/low)/(2.0_wp*h) - resistance_length_slope(law, slope, change)) < 10.0_wp*tolerance, &
+               & "lengths, "//rolling_law_names(law))
             if (allocated(error)) return
          end do
       end do
    end subroutine test_rolling
+
+   !> Lengths whose logarithms have moved.
+   pure function moved(lengths, change, part) result(others)
+      type(line_lengths_t), intent(in) :: lengths, change
+      real(wp), intent(in) :: part
+      type(line_lengths_t) :: others
+
+      others = line_lengths_t(lengths%mean*exp(part*change%mean), lengths%root*exp(part*change%root), &
+         & lengths%loaded*exp(part*change%loaded))
+   end function moved
 
    !> Load share with load over radius, speed and radius moved along their logarithms.
    subroutine moved_share(law, groups, q, u, r, share, line, load)

@@ -12,7 +12,7 @@ module test_ehl_law
    use camroller_film_table, only : film_table_t
    use camroller_asperity, only : asperity_t, new_asperity_constants
    use camroller_load_share, only : share_t, share_load
-   use camroller_traction, only : rolling_resistance, rolling_biboulet_houpert
+   use camroller_traction, only : rolling_resistance, rolling_biboulet_houpert, same_lengths
    use camroller_ehl_problem, only : ehl_contact_t
    use camroller_ehl_solution, only : ehl_options_t, ehl_track_t, solve_contact_film, follow_contact
    use camroller_ehl_films, only : ehl_films_t
@@ -404,7 +404,7 @@ contains
             call expect_success(error, failure)
             if (allocated(error)) return
             call rolling_resistance(rolling_biboulet_houpert, 10.0_wp**(k - 12), 10.0_wp**(i - 7), contact%modulus, &
-               & contact%radius, 1.0_wp, contact%oil%pressure_viscosity, force, slope)
+               & contact%radius, same_lengths(1.0_wp), contact%oil%pressure_viscosity, force, slope)
             call check_close(error, films%rolling, 1.07_wp*force, 0.07_wp, "rolling resistance")
             if (allocated(error)) return
          end do

@@ -14,7 +14,7 @@ module test_roller_problem
    use camroller_lubricant, only : oil_t, mean_relative_viscosity, law_cameron
    use camroller_film, only : groups_t, film_shape_t, film_shape, law_dowson_higginson
    use camroller_traction, only : newtonian_shear, limit_shear, mobilised_share, rolling_resistance, cap_smooth, &
-      rolling_goksem_hargreaves
+      rolling_goksem_hargreaves, same_lengths
    use camroller_needle, only : bearing_torque
    use camroller_roller, only : spin_acceleration
    use camroller_ode, only : problem_t, options_t, counters_t, integrate
@@ -190,7 +190,8 @@ contains
          forces%traction = forces%traction + 0.2_wp*asperity_load*mobilised
          forces%slope = forces%slope + 0.2_wp*asperity_load*(1.0_wp - mobilised**2)/0.01_wp
          call rolling_resistance(rolling_goksem_hargreaves, groups%speed, groups%load, model%modulus, &
-            position%equivalent_radius, model%contact_width, problem%oil%pressure_viscosity, forces%rolling, slopes(1))
+            position%equivalent_radius, same_lengths(model%contact_width), problem%oil%pressure_viscosity, forces%rolling, &
+            slopes(1))
          forces%bearing = bearing_torque(0.0015_wp, load, model%bearing%radius, spin, 1.0_wp)
       end associate
    end subroutine evaluate_forces

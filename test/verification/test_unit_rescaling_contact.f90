@@ -11,7 +11,7 @@ module test_unit_rescaling_contact
       & asperity_area
    use camroller_load_share, only : share_t, share_load, improve_share
    use camroller_traction, only : rolling_law_names, cap_names, film_pressure, newtonian_shear, eyring_shear, &
-      & limit_shear, mobilised_share, rolling_resistance
+      & limit_shear, mobilised_share, rolling_resistance, same_lengths
    use unit_systems, only : units_t, systems => unit_systems_tried, scaled, compare, number, length, area, speed, &
       & force, pressure, viscosity, per_pressure, temperature, drag, per_temperature, density
    implicit none
@@ -253,9 +253,9 @@ contains
             do k = 1, 2
                ! the elastic and the rigid side
                load_group = load/(modulus*radius*width)*1.0e-2_wp**(k - 1)
-               call rolling_resistance(law, speed_group, load_group, modulus, radius, width, alpha, f, f_slope)
+               call rolling_resistance(law, speed_group, load_group, modulus, radius, same_lengths(width), alpha, f, f_slope)
                call rolling_resistance(law, speed_group, load_group, scaled(u, modulus, pressure), &
-                  scaled(u, radius, length), scaled(u, width, length), scaled(u, alpha, per_pressure), g, g_slope)
+                  scaled(u, radius, length), same_lengths(scaled(u, width, length)), scaled(u, alpha, per_pressure), g, g_slope)
                call compare(error, rolling_law_names(law), u, force, [f], [g])
                if (allocated(error)) return
                call compare(error, rolling_law_names(law), u, number, [f_slope], [g_slope])

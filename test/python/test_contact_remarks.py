@@ -1,0 +1,47 @@
+"""Remarks on a contact that is beyond what the model describes: no film to speak of, bodies that yield, pressure at one place."""
+
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def remarks(camroller, folder, *settings, deck="decks/thesis.nml"):
+    """What a run without a sweep says beside its table."""
+    options = [word for setting in settings for word in ("--set", setting)]
+    result = subprocess.run([camroller, "run", deck, "--no-sweep", "-o", folder / "result.h5", *options], cwd=ROOT,
+                            capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
+    return result.stderr
+
+
+def test_a_film_far_below_the_roughness_gives_a_remark(camroller, tmp_path):
+    text = remarks(camroller, tmp_path, "film.law=moes", "operating_point.speed_rpm=50", "operating_point.oil_temperature_degC=140",
+                   "surface.cam_roughness_um=1")
+    share, least = re.search(r"below 0\.1 of the roughness for ([\d.]+) % of the cycle, down to ([\d.]+) at", text).groups()
+    assert 50 < float(share) <= 100 and 0.005 < float(least) < 0.02
+    assert "without &asperity" not in text
+
+
+def test_hot_oil_of_the_thesis_gives_none(camroller, tmp_path):
+    assert "of the roughness" not in remarks(camroller, tmp_path, "operating_point.oil_temperature_degC=95")
+
+
+@pytest.mark.parametrize("settings, words", [
+    (("mechanism.contact_width_mm=2", "spring.stiffness_N_m=200000"), "GPa; even the hard steel of roller bearings stands 4 GPa"),
+    (("materials.hardness_GPa=0.5",), "GPa; from 0.3 GPa on, 0.6 of materials.hardness_GPa, the softer body yields"),
+    (("materials.hardness_GPa=7",), None),
+    ((), None),
+])
+def test_a_pressure_at_which_bodies_yield_gives_a_remark(camroller, tmp_path, settings, words):
+    text = remarks(camroller, tmp_path, "lubricant.pressure_law=roelands", *settings)
+    assert words in text if words else "which is elastic here" not in text and "ISO 76" not in text
+
+
+def test_the_pressure_is_that_where_the_load_along_the_roller_is_largest(camroller, tmp_path):
+    deck = tmp_path / "tilted.nml"
+    deck.write_text((ROOT / "decks/thesis.nml").read_text(encoding="utf-8") + "\n&roller_profile tilt_mrad = 0.2 /\n", encoding="utf-8")
+    assert "the pressure goes up to 1.08 GPa" in remarks(camroller, tmp_path, "operating_point.oil_temperature_degC=95", deck=deck)
