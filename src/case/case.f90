@@ -85,7 +85,8 @@ module camroller_case
 
    !> How the case is integrated and reported
    type :: numerics_t
-      !> Error allowed, of the sliding speed relative to its largest value and of mean losses relative to themselves [-]
+      !> Error allowed: of the sliding speed relative to its largest value, of each mean relative to its mean magnitude, of smallest
+      !> and largest values relative to their range [-]
       real(wp) :: accuracy = 1.0e-4_wp
       !> One of `method_choices`
       character(len=name_length) :: method = automatic_method

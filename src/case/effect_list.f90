@@ -243,6 +243,7 @@ contains
    pure function has_rough_film(case) result(has)
       !> The case
       type(case_t), intent(in) :: case
+      !> Has it one?
       logical :: has
 
       has = case%film%law == film_law_names(law_masjedi_khonsari_rough)
@@ -334,6 +335,7 @@ contains
       type(case_t), intent(in) :: case
       !> Position in `effect_names`
       integer, intent(in) :: effect
+      !> Does it?
       logical :: has
 
       has = .false.
@@ -349,6 +351,7 @@ contains
       type(case_t), intent(in) :: case
       !> One of `needs_bearings`
       integer, intent(in) :: effect
+      !> Does it?
       logical :: has
 
       has = .false.

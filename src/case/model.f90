@@ -1,7 +1,7 @@
 !> A model: the case made ready for evaluation, laws chosen and constants derived, for one lobe shape.
 !>
-!> In: `case_t`. Out: `model_t`, read-only while a cycle is integrated; only `set_operating_point` changes it
-!> between cycles or between the steps of a host program. An effect of the case is an allocated component here as well.
+!> In: `case_t`. Out: `model_t`. While a cycle is integrated, only inputs change that a host moves within a step (`follow_ramp`);
+!> running-in changes the surfaces between cycles. An effect of the case is an allocated component here as well.
 module camroller_model
    use camroller_kinds, only : wp, pi, degree
    use camroller_engine, only : cam_turns
@@ -241,8 +241,8 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Groups U in pure rolling and W* without friction, smallest and largest [-]; gas force, load [N]; their scale [N]
-      real(wp) :: speeds(2), loads(2), force, load, scale
+      ! Groups U in pure rolling and W* without friction, smallest and largest; one of them [-]; gas force, load [N]; E'R [N/m]
+      real(wp) :: speeds(2), loads(2), group, force, load, scale
       integer :: i, status
 
       speeds = [huge(1.0_wp), 0.0_wp]
@@ -254,13 +254,13 @@ contains
          if (allocated(model%gas)) force = gas_force(model%gas, 2.0_wp*i*degree)
          call evaluate_moments(model%train, position, model%speed, force, moments)
          scale = model%modulus*position%equivalent_radius
-         load = model%oil%viscosity*model%speed*abs(position%surface_travel)/scale
-         speeds = [min(speeds(1), load), max(speeds(2), load)]
+         group = model%oil%viscosity*model%speed*abs(position%surface_travel)/scale
+         speeds = [min(speeds(1), group), max(speeds(2), group)]
          load = moments%total/position%normal_arm
          if (model%takes_maximum_load) load = max(load, model%base_circle_load)
          if (load <= 0.0_wp) cycle
-         load = load/(scale*model%contact_width)
-         loads = [min(loads(1), load), max(loads(2), load)]
+         group = load/(scale*model%contact_width)
+         loads = [min(loads(1), group), max(loads(2), group)]
       end do
       speeds = [max(speeds(1)*table_margins(1), speeds(2)*smallest_part, speed_range(1)), speeds(2)*table_margins(2)]
       loads = [max(loads(1)*table_margins(1), loads(2)*smallest_part, load_range(1)), &

@@ -117,6 +117,7 @@ contains
    elemental function takes_part(asperity)
       !> Asperities
       type(asperity_constants_t), intent(in) :: asperity
+      !> Is it?
       logical :: takes_part
 
       takes_part = asperity%law == law_masjedi_khonsari

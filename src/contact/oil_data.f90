@@ -98,7 +98,7 @@ contains
    !>
    !> Source: So and Klaus (1980). The slope is that of Walther's law, the slope on the chart of ASTM D341 over 0.2.
    pure function so_klaus_coefficient(viscosity, slope, density) result(coefficient)
-      !> Kinematic viscosity at the temperature, above 1 [mm^2/s]
+      !> Kinematic viscosity at the temperature, `smallest_estimated` or more [mm^2/s]
       real(wp), intent(in) :: viscosity
       !> Slope of log10 log10 (viscosity + 0.7) over log10 of the temperature, its sign changed [-]
       real(wp), intent(in) :: slope

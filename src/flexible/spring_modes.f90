@@ -36,7 +36,7 @@ module camroller_spring_modes
       real(wp) :: damping_ratio = 0.0_wp
       !> Angular frequency of each mode with both ends held, omega_n [rad/s]
       real(wp), allocatable :: frequency(:)
-      !> (-1)^(n+1)/(n pi) [-]
+      !> s_n = (-1)^(n+1)/(n pi) [-]
       real(wp), allocatable :: share(:)
    end type spring_modes_t
 
@@ -91,7 +91,7 @@ contains
       if (modes%count > 0) mass = mass - 2.0_wp*modes%mass*sum(modes%share**2)
    end function effective_mass
 
-   !> Force of the modes on the valve beside its effective mass, `m_s sum s_n/(n pi) (omega_n^2 q_n + 2 zeta omega_n qd_n)`.
+   !> Force of the modes on the valve beside its effective mass, `m_s sum s_n (omega_n^2 q_n + 2 zeta omega_n qd_n)`.
    pure function valve_pull(modes, amplitudes, rates) result(force)
       !> The modes
       type(spring_modes_t), intent(in) :: modes

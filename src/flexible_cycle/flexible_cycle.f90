@@ -303,6 +303,7 @@ contains
       type(history_t), intent(in) :: history
       !> Difference in a direction of its own from which on a turn is compared as well, in units of the scales [-]
       real(wp), intent(in) :: noise
+      !> Do they?
       logical :: verdict
 
       ! Changes of the start from turn to turn, and of the end, in units of the scales [-]
@@ -391,6 +392,7 @@ contains
       type(turn_t), intent(in) :: turn
       !> The state at the start of a turn, in units of the scales [-]
       real(wp), intent(in) :: aim(:)
+      !> Can it?
       logical :: verdict
 
       ! Rate there [state/rad]

@@ -59,7 +59,8 @@ contains
       type(follow_t) :: follow
       ! Accelerations of finger and pivot, rate of the sliding speed over the six variables [any]; over the forces at the pad [any]
       real(wp) :: finger(variables), pivot(variables), sliding(variables), by_pad(3)
-      ! Pad's force over gamma, its rate, y, its rate, lift, speed [any]; accelerations over force and moment [1/kg], [1/kg m]
+      ! Pad's force over gamma, its rate, y, its rate, lift, speed [any]; accelerations of finger and pivot over moment and force
+      ! [1/kg m^2], [1/kg m], [1/kg]
       real(wp) :: pad(6), inverse(2, 2)
 
       call turn_geometry(model, state, now, turns)

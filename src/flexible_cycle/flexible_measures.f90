@@ -36,7 +36,7 @@ module camroller_flexible_measures
 
    !> What is kept of a point for the interval to the next one
    type :: sample_t
-      !> Cam angle [rad]; a point comes before the first one where it is huge
+      !> Cam angle; huge before the first point [rad]
       real(wp) :: angle = huge(1.0_wp)
       !> Rigid lift less that above which a load counts as one of the event [m], contact load [N]
       real(wp) :: height = -1.0_wp, load = 0.0_wp

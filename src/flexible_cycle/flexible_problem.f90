@@ -25,7 +25,7 @@ module camroller_flexible_problem
 
    !> A flexible train over the cam angle
    type, extends(switching_problem_t) :: flexible_problem_t
-      !> The model; read only
+      !> The model; `follow_ramp` sets its inputs to those at the angle where a host moves them, else nothing changes it
       type(model_t), pointer :: model => null()
       !> What need not be told apart
       type(resolution_t) :: resolution

@@ -44,7 +44,7 @@ contains
       type(moments_t) :: moments
       type(contact_t) :: contact
       type(bracket_t) :: bracket
-      ! Gas force [N]; largest sliding speed tried [m/s]; dV_s/dtheta and at both ends of the bracket [m/s/rad]
+      ! Gas force [N]; largest sliding speed tried [m/s]; dV_s/dtheta where one is tried and at both ends of the bracket [m/s/rad]
       real(wp) :: force, limit, rate, rate_low, rate_high
       integer :: status
 

@@ -69,6 +69,7 @@ contains
       real(wp), intent(in) :: angle
       !> Largest sliding speed [m/s]
       real(wp), intent(in) :: largest
+      !> Is there one?
       logical :: verdict
 
       ! Fractions of the largest sliding speed that are tried, on both sides

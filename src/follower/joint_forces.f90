@@ -363,9 +363,9 @@ contains
       !> What the ball's force is made of
       type(pivot_forces_t), intent(out) :: forces
 
-      ! Directions along and across the roller arm [-]; angular speed [rad/s] and acceleration [rad/s^2] of the finger
+      ! Directions along and across the roller arm [-]; angular acceleration of the finger [rad/s^2]
       type(dual_t) :: along(2), across(2), acceleration
-      ! Sine and cosine of the roller arm's angle [-], sense of rotation over the length of the arm [1/m]
+      ! Sine and cosine of the roller arm's angle [-]; length of the arm [m]
       real(wp) :: sine, cosine, length
 
       cosine = cos(position%arm_angle)

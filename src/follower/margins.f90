@@ -229,7 +229,7 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Gas force, forces on the finger's tip [N]; unit vectors of load and traction [-]
+      ! Gas force [N]; unit vectors of load and traction [-]
       real(wp) :: force, normal(2), tangent(2)
       integer :: status
 

@@ -35,7 +35,7 @@ module camroller_spin
 
    !> The roller's spin over the cam angle
    type, extends(problem_t) :: spin_problem_t
-      !> The model; read only
+      !> The model; `follow_ramp` sets its inputs to those at the angle where a host moves them, else nothing changes it
       type(model_t), pointer :: model => null()
       !> Is the state the roller's surface speed instead of the sliding speed?
       logical :: has_surface_speed = .false.
@@ -79,7 +79,7 @@ contains
       type(position_t) :: position
       type(moments_t) :: moments
       type(contact_t) :: contact, start
-      ! Gas force, sliding speed [m/s]; angular acceleration of the roller [rad/s^2]
+      ! Gas force [N]; sliding speed [m/s]; angular acceleration of the roller [rad/s^2]
       real(wp) :: force, sliding_speed, acceleration
 
       rate = 0.0_wp

@@ -15,7 +15,7 @@ module camroller_trajectory
    public :: trajectory_t, stop_margin, start_trajectory, append_cubic, append_curve, append_straight, append_until, &
       & interpolate_state, curve_state, curve_slope
 
-   !> Accepted points, in order of time; at a kink of the rate two points share a time
+   !> Accepted points, in order of time; at a stop, where rates may jump, two points are two margins apart (`stop_margin`)
    type :: trajectory_t
       !> Number of points in use
       integer :: count = 0
@@ -104,7 +104,8 @@ contains
       real(wp), intent(in) :: state(:)
       !> Rate [state/time]
       real(wp), intent(in) :: rate(:)
-      !> Bends of the curve, shape (component, 3) [state]
+      !> The first numbers of the curve, as many as there are, shape (component, up to `curve_numbers`): bends, height of the layer
+      !> [state], its exponent [-]; the others are zero
       real(wp), intent(in) :: bends(:, :)
 
       call append_straight(trajectory, time, state, rate)

@@ -53,7 +53,7 @@ module camroller_ode_method
       !> Does a step leave its own curve in `bends`? Else the curve follows from the rates at both ends, which suits
       !> methods whose steps are short against the decay: a rate carries the error of a state times the decay rate
       logical :: has_curve = .false.
-      !> Curve of the last step, as `append_curve` takes it, shape (component, numbers given) [state]
+      !> Curve of the last step, as `append_curve` takes it, shape (component, numbers given) [state] and [-]
       real(wp), allocatable :: bends(:, :)
       !> Error allowed per step, for methods that iterate; set by `integrate` [state]
       real(wp), allocatable :: tolerance(:)
@@ -161,7 +161,7 @@ contains
 
    !> Go on to the end of a step.
    pure subroutine take_step(step)
-      !> In: a step; out: one of no length where it ended
+      !> In: a step, accepted; out: the start of the next one, whose end and length are still to be set
       type(step_t), intent(inout) :: step
 
       step%time = step%end_time
