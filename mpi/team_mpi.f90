@@ -6,7 +6,7 @@
 module camroller_team_mpi
    use mpi_f08, only : mpi_address_kind, mpi_allreduce, mpi_bcast, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
       & mpi_fetch_and_op, mpi_finalize, mpi_info_null, mpi_init_thread, mpi_integer, mpi_iprobe, mpi_any_source, mpi_any_tag, &
-      & mpi_lock_shared, mpi_max, mpi_status_ignore, mpi_sum, mpi_thread_serialized, mpi_win, mpi_win_allocate, mpi_win_flush, &
+      & mpi_max, mpi_status_ignore, mpi_sum, mpi_thread_serialized, mpi_win, mpi_win_allocate, mpi_win_flush, &
       & mpi_win_free, mpi_win_lock_all, mpi_win_unlock_all, mpi_barrier, mpi_win_sync
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_int, c_ptr, c_sizeof
    use camroller_team, only : team_t

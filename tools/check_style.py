@@ -3,8 +3,8 @@
 
 Usage: tools/check_style.py [--root DIR]
 
-Everywhere: no tabs, no trailing blanks, lines within 132 characters (the limit of the language), `only` in every use,
-`implicit none`, files within 500 lines, procedures within 60 lines of code. In src and app: one module a file, named after it
+Everywhere: no tabs, no trailing blanks, lines within 132 characters (the limit of the language), `only` in every use, no name in
+it that stands nowhere else, `implicit none`, files within 500 lines, procedures within 60 lines of code. In src and app: one module a file, named after it
 with our prefix, `private` at its top, a unit in brackets on every real declaration, and no write into a text, which ends the program where the
 text is too short (src/base/number_text.f90 has the routines for that; a unit is known by its name, `...unit` or `*`); no print and
 no unit for output or errors, whose text is lost without an error where the disk is full (src/files/streams.f90 has the routines for that).
@@ -39,6 +39,9 @@ REAL = re.compile(r"^(?:real|complex)\s*(?:\([^)]*\))?\s*(?:,.*)?::")
 UNIT = re.compile(r"\[[^\[\]]+\]|\bunits? (?:as|of|in) ")
 WRITE = re.compile(r"^(?:if\s*\(.*\)\s*)?write\s*\(\s*(?:unit\s*=\s*)?([^,)]*)")
 UNIT_NUMBER = re.compile(r"^(?:[\w%]*unit|\*|\d+)\s*$")
+IMPORTS = re.compile(r"^use\b.*\bonly\s*:\s*(.*)$")
+# What stands before the kind of a number
+DIGITS = re.compile(r"\b\d[\d.]*_(?=[a-z])")
 EXCUSE = re.compile(r"style:\s*(\w+)\s+because\s+\S")
 
 
@@ -136,6 +139,19 @@ def check_statements(report: Report, code: list[Statement], folder: str) -> None
             report.add(statement.line, "write", "a number is written into a text; take number_text or another of its module")
 
 
+def check_imports(report: Report, code: list[Statement]) -> None:
+    """No name after `only` that the file does not use; operators and assignments may be used without their name."""
+    used = set()
+    for statement in code:
+        if not IMPORTS.match(statement.text):
+            used.update(re.findall(r"\w+", DIGITS.sub(" ", statement.text)))
+    for statement in code:
+        if match := IMPORTS.match(statement.text):
+            names = [item.split("=>")[0].strip() for item in match[1].split(",") if "(" not in item]
+            for name in sorted(set(names) - used):
+                report.add(statement.line, "import", f"{name} is imported and not used")
+
+
 def check_lengths(report: Report, code: list[Statement]) -> None:
     """No function with a text of any length as its result."""
     result = ""
@@ -173,6 +189,7 @@ def check_file(path: pathlib.Path, root: pathlib.Path) -> list[str]:
     check_lines(report)
     check_procedures(report, code)
     check_statements(report, code, folder)
+    check_imports(report, code)
     check_units_of_program(report, code, path, folder)
     if folder in ("src", "app"):
         check_units(report, code)

@@ -15,7 +15,7 @@ module bench_tasks
    use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, rest_of_train
    use camroller_flexible_turn, only : start_turns, turn_t
    use camroller_events, only : cycle_stops
-   use camroller_flexible_problem, only : flexible_problem_t, state_scales
+   use camroller_flexible_problem, only : flexible_problem_t
    use camroller_flexible_train, only : at_sliding, evaluate_train, flexible_state_t
    use camroller_ode_problem, only : problem_t
    use bench_own, only : own_t, new_own, run_own

@@ -8,7 +8,7 @@ module camroller_assemble
    use camroller_case_sink, only : sink_t
    use camroller_mistakes, only : line_t
    use camroller_part_file, only : read_record
-   use camroller_part_scan, only : entry_t, index_t
+   use camroller_part_scan, only : index_t
    use camroller_raw_file, only : close_raw, open_raw, raw_file_t
    use camroller_record, only : record_t
    implicit none

@@ -22,7 +22,6 @@ module camroller_journal_motion
    use camroller_kinds, only : wp, pi
    use camroller_bearing_asperity, only : bearing_state_t, tabulated_forces, touch_t
    use camroller_journal, only : journal_t, moves_like_finite
-   use camroller_names, only : name_length
    implicit none
    private
 

@@ -4,7 +4,6 @@
 !> In: a case. Out: names, units, meanings, values; one case of the sweep.
 module camroller_c_deck
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
-   use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_internal, kind_usage, add_context
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case, drop_sweep
    use camroller_deck_document, only : given_numbers

@@ -2,7 +2,7 @@
 !>
 !> In: structs of C, whose `size` the caller sets. Out: types of ours, and back.
 module camroller_c_structs
-   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_result, only : quantity_t

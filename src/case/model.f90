@@ -6,7 +6,7 @@ module camroller_model
    use camroller_kinds, only : wp, pi, degree
    use camroller_engine, only : cam_turns
    use camroller_error, only : error_t, raise, kind_deck
-   use camroller_names, only : name_length, find_name
+   use camroller_names, only : find_name
    use camroller_axial_setup, only : set_axial
    use camroller_axial_table, only : axial_part_t
    use camroller_accuracy, only : check_numerics, is_within, above_zero

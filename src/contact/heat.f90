@@ -5,7 +5,7 @@
 !> Cheng, Zhu, Forster and Schrand, Tribology Transactions 35 (1992) 269.
 module camroller_heat
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
+   use camroller_error, only : error_t, raise, add_context, kind_deck
    use camroller_names, only : name_length, find_name
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at, temperature_law_names, law_direct, law_roelands
    use camroller_conjunction, only : hot_oil_t, body_t, band_t, new_band

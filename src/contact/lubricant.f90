@@ -8,7 +8,6 @@ module camroller_lubricant
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
    use camroller_names, only : name_length, find_name, index_of_name
    use camroller_contact_rule, only : rule_heights, rule_weights
-   use camroller_number_text, only : fixed_text
    use camroller_oil_points, only : coefficient_at, vogel_viscosity
    use camroller_oil_data, only : sae_grade_names, grade_viscosity, grade_index, viscosity_at_40, so_klaus_coefficient, &
       & smallest_indexed, smallest_estimated

@@ -9,7 +9,7 @@ module camroller_cycle
    use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck
    use camroller_accuracy, only : resolve_numerics, evaluations_allowed
    use camroller_case, only : numerics_t, quasi_static
-   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_contact_forces, only : contact_t
    use camroller_dynamics, only : moments_t

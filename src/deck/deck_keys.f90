@@ -32,7 +32,7 @@ module camroller_deck_keys
    use camroller_usual_values, only : add_usual_ranges
    use camroller_output_options, only : output_options_t, compression_names
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
-      & add_numbers, add_integers, add_words, group_required, group_standard, group_effect, anything, positive, &
+      & add_numbers, add_integers, group_required, group_standard, group_effect, anything, positive, &
       & not_negative, proper_fraction, up_to, from_to, one_or_more, range_t
    implicit none
    private

@@ -9,10 +9,9 @@ module camroller_deck_joints
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
    use camroller_needle_drag, only : needle_drag_t
-   use camroller_pivot_friction, only : finger_pivot_t
    use camroller_settings, only : settings_t, get_word, has_group, is_known, is_wrong, take
    use camroller_sliding_friction, only : sliding_t, sliding_law_names
-   use camroller_stem_friction, only : valve_tip_t, stem_seal_t, guide_side_load_t, seal_drag_names
+   use camroller_stem_friction, only : stem_seal_t, seal_drag_names
    implicit none
    private
 

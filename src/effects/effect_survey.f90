@@ -11,7 +11,7 @@
 !> the difference of means over all angles and over half of them.
 module camroller_effect_survey
    use camroller_contact_traction, only : largest_shear
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp
    use camroller_effect_grid, only : grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, &
       & sampling_error
    use camroller_model, only : model_t

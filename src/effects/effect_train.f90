@@ -6,7 +6,6 @@
 !> What parts or returns within the event is not estimated.
 module camroller_effect_train
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_contact_compliance, only : series_load
    use camroller_dynamics, only : moments_t
    use camroller_effect_grid, only : grid_t, points
    use camroller_error, only : error_t

@@ -10,7 +10,7 @@ module camroller_ehl_newton
    use camroller_ehl_factors, only : ehl_rows_t, ehl_factors_t, factorise, replace_rows, solve_changes
    use camroller_ehl_grid, only : ehl_grid_t, deformation, integral
    use camroller_ehl_problem, only : ehl_problem_t
-   use camroller_ehl_reynolds, only : ehl_fields_t, storage_t, evaluate_film, evaluate_oil, evaluate_flow
+   use camroller_ehl_reynolds, only : ehl_fields_t, storage_t, evaluate_oil, evaluate_flow
    implicit none
    private
 

@@ -8,7 +8,7 @@ module camroller_ehl_cycle
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_convergence, kind_domain
-   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_events, only : find_stops_between

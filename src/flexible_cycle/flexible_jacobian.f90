@@ -10,7 +10,7 @@ module camroller_flexible_jacobian
    use camroller_roller, only : spin_acceleration
    use camroller_lash_adjuster, only : bulk_modulus, chamber_volume
    use camroller_contact_forces, only : motion_t, slopes_t, follow_contact
-   use camroller_flexible_geometry, only : touch_t, dot, cross, imaginary
+   use camroller_flexible_geometry, only : dot, cross, imaginary
    use camroller_flexible_train, only : flexible_state_t, first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
       & at_plunger, at_plunger_rate, at_pressure, largest_state
    implicit none

@@ -12,7 +12,7 @@ module camroller_flexible_measures
    use camroller_trajectory, only : trajectory_t, interpolate_state
    use camroller_lash_adjuster, only : opening_pressure
    use camroller_quadrature, only : gauss_legendre
-   use camroller_flexible_geometry, only : dot, imaginary
+   use camroller_flexible_geometry, only : dot
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_lift, &
       & at_speed
    use camroller_flexible_energy, only : powers_t, evaluate_powers

@@ -11,7 +11,7 @@
 !> A film needs speed: `s = sqrt(spin^2 + s_0^2)` takes its place, so that torque and slope are continuous where the roller
 !> stands still on its pin; at ten times s_0 the torque differs by half a per cent of what the film adds to that.
 module camroller_pin_film
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length, find_name
    use camroller_bearing_asperity, only : bearing_asperity_t, touch_t, balance_t, new_touch, balance_load

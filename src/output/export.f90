@@ -6,7 +6,7 @@
 module camroller_export
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, kind_file, kind_usage
+   use camroller_error, only : error_t, raise, kind_usage
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_read, only : check_extents, has_member, list_members, member_length, read_extents, read_numbers, read_text
@@ -14,7 +14,7 @@ module camroller_export
    use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
    use camroller_number_text, only : integer_text, write_number, number_length
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t
-   use camroller_result_columns, only : head_column, make_columns, open_result, read_column, table_t, word_t
+   use camroller_result_columns, only : head_column, make_columns, open_result, read_column, table_t
    use camroller_streams, only : print_text
    implicit none
    private

@@ -5,7 +5,7 @@
 module camroller_output_file
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, kind_file, kind_internal, kind_usage
+   use camroller_error, only : error_t, raise, kind_internal, kind_usage
    use camroller_names, only : find_name
    use camroller_output_options, only : compression_names, output_options_t
    use camroller_result, only : quantity_t

@@ -11,7 +11,6 @@ module camroller_means
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series

@@ -5,7 +5,7 @@
 module camroller_audit
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use camroller_case, only : case_t, select_names, quantity_names
+   use camroller_case, only : case_t, select_names
    use camroller_effect_choice, only : choose_effects
    use camroller_effect_list, only : choice_t, decision_t, effect_names, effect_count, effect_bearings, effect_ehl, &
       & effect_rolling, has_effect, leave_all_but, leave_out, needs_bearings

@@ -8,7 +8,6 @@ module camroller_study
    use camroller_names, only : name_length
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t, automatic_method, quasi_static
-   use camroller_ehl_table, only : ehl_t
    use camroller_number_text, only : number_text
    use camroller_ode_methods, only : method_facts
    use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word

@@ -1,6 +1,6 @@
 !> Where a film law is outside its range: when a word is due, and what it says.
 module test_film_range
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_film, only : groups_t, law_dowson_higginson, law_masjedi_khonsari, law_table
    use camroller_film_range, only : film_range_t, matters, note_film, range_in_words

@@ -1,6 +1,6 @@
 !> A small valid deck for tests, and what is said about it after a change.
 module deck_samples
-   use testdrive, only : error_type, check, test_failed
+   use testdrive, only : error_type, test_failed
    use camroller_error, only : error_t, kind_deck
    use camroller_deck, only : deck_t, override_t, parse_deck
    implicit none

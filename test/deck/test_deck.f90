@@ -2,7 +2,7 @@
 module test_deck
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, degree
-   use camroller_error, only : error_t, kind_deck, kind_file
+   use camroller_error, only : error_t, kind_file
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, override_t, parse_deck, read_deck, make_case
    use deck_samples, only : sample_deck, changed_deck, parse_sample, expect_mistake, expect_valid

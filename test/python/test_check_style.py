@@ -54,6 +54,8 @@ def test_good_code_passes(tmp_path, capsys):
     ("   private", "\tprivate", "tab"),
     ("A sentence.", "A sentence." + 120*"x", "width"),
     (", only : wp", "", "only"),
+    (", only : wp", ", only : wp, pi", "import"),
+    (", only : wp", ", only : wp, circle => pi", "import"),
     ("   implicit none\n", "", "implicit"),
     ("   private\n", "", "private"),
     ("! [m]", "! m", "unit"),
@@ -87,6 +89,12 @@ def test_a_rule_is_excused_with_a_reason(tmp_path, capsys):
 def test_an_excuse_without_a_reason_does_not_count(tmp_path, capsys):
     long = "   ! style: width because\n   !> " + 130*"x" + "\n   public :: half"
     assert faults(tmp_path, capsys, GOOD.replace("   public :: half", long)) == ["width"]
+
+
+@pytest.mark.parametrize("names", ["wp, operator(+)", "wp, length => pi", "wp, &\n      & stop_length, &\n      & answer", "wp, kind_8"])
+def test_names_that_are_used_may_be_imported(tmp_path, capsys, names):
+    text = GOOD.replace("only : wp", f"only : {names}").replace("0.5_wp*", "0.5_wp*1_kind_8*")
+    assert faults(tmp_path, capsys, text) == []
 
 
 def test_one_unit_comment_covers_consecutive_declarations(tmp_path, capsys):

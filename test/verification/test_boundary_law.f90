@@ -1,14 +1,14 @@
 !> Law of the boundary coefficient: logarithm and straight line, tables, what asperities make of it.
 module test_boundary_law
    use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
-   use camroller_asperity, only : boundary_friction_t, boundary_part_t, find_boundary_friction, friction_modifier_t
+   use camroller_asperity, only : boundary_friction_t, find_boundary_friction, friction_modifier_t
    use camroller_boundary_law, only : boundary_curve_t, boundary_law_t, evaluate_boundary_curve, new_boundary_curve
    use camroller_case, only : case_t
    use camroller_conjunction, only : flash_resistance
    use camroller_error, only : error_t, kind_deck
    use camroller_kinds, only : wp
    use camroller_model, only : model_t, new_model, set_operating_point
-   use camroller_result, only : find_quantity, get_summary, result_t
+   use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
    use camroller_state, only : evaluate_state, state_t
    use reference_cases, only : add_heat, make_model, set_point, thesis_case

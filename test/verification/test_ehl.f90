@@ -3,7 +3,7 @@ module test_ehl
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, kind_domain, kind_convergence
-   use camroller_lubricant, only : law_barus, law_cameron, law_roelands
+   use camroller_lubricant, only : law_barus, law_roelands
    use camroller_ehl_grid, only : ehl_grid_t, new_ehl_grid, new_uniform_grid, deformation
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem
    use camroller_ehl_reynolds, only : storage_t, new_ehl_fields

@@ -1,6 +1,6 @@
 !> The cycle with a transient film: steady where nothing changes, convergence in step and nodes, loss of contact, coupling.
 module test_ehl_cycle
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi, degree
    use camroller_error, only : error_t, kind_convergence, kind_domain
    use camroller_case, only : case_t

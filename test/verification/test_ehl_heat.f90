@@ -1,6 +1,6 @@
 !> Energy equation of a solved contact: surfaces, film, balance, inlet, coupling with the film, and the cycle.
 module test_ehl_heat
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
    use camroller_case, only : case_t
    use camroller_conjunction, only : band_mean, body_t, hot_oil_t

@@ -1,14 +1,13 @@
 !> The numerical film as a film law, and with rough surfaces: table, slopes, load share, friction, the whole contact.
 module test_ehl_law
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, kind_domain
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t, evaluate_state
-   use camroller_lubricant, only : law_barus, mean_relative_viscosity
-   use camroller_hertz, only : half_width, peak_pressure
-   use camroller_film, only : groups_t, film_shape_t, film_line_t, new_film_line, film_at_load, film_shape, law_table, law_moes
+   use camroller_hertz, only : half_width
+   use camroller_film, only : groups_t, film_shape_t, film_line_t, new_film_line, film_at_load, law_table, law_moes
    use camroller_film_table, only : film_table_t
    use camroller_asperity, only : asperity_t, new_asperity_constants
    use camroller_load_share, only : share_t, share_load

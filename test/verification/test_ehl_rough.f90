@@ -2,7 +2,7 @@
 !>
 !> Their asperities are those of Zhao, Maietta and Chang, their flow that of Patir and Cheng. `ROUGH_TABLE=file` writes the table.
 module test_ehl_rough
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, kind_domain
    use camroller_asperity, only : asperity_t, asperity_law_names, law_zhao_maietta_chang, new_asperity_constants

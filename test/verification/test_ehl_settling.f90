@@ -1,12 +1,12 @@
 !> Steady films that Newton's method does not find from a start, and viscosities beyond what a number holds.
 module test_ehl_settling
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_lubricant, only : oil_t, relative_viscosity, log_relative_viscosity, law_barus, law_roelands
    use camroller_ehl_grid, only : ehl_grid_t, deformation
    use camroller_ehl_problem, only : ehl_problem_t, new_ehl_problem
    use camroller_ehl_reynolds, only : mean_fluidity, new_ehl_fields
-   use camroller_ehl_newton, only : ehl_state_t, solve_newton
+   use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_settling, only : settle
    use camroller_ehl_solution, only : ehl_options_t, make_grid, solve_cold, solve_on_grids
    use camroller_ehl_films, only : ehl_films_t

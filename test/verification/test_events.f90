@@ -10,7 +10,7 @@ module test_events
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_cam_check, only : check_geometry
    use camroller_events, only : find_stops, find_stops_between, cycle_stops, contact_losses
-   use closeness, only : check_close, check_scaled, expect_error, expect_success
+   use closeness, only : check_scaled, expect_error, expect_success
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
    private

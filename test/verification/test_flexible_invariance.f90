@@ -8,7 +8,7 @@ module test_flexible_invariance
    use camroller_flexible_turn, only : integrate_turn, start_turns, turn_t
    use camroller_flexible_energy, only : stored_energy
    use camroller_flexible_measures, only : drive_torque, largest_load, measure_count, measure_turn, seating_speed, surge_force
-   use camroller_flexible_train, only : at_finger_rate, at_lift, at_sliding, at_speed, evaluate_train, first_mode, &
+   use camroller_flexible_train, only : at_finger_rate, at_speed, evaluate_train, first_mode, &
       & flexible_state_t, resolution_t
    use camroller_kinematics, only : rotation_names
    use camroller_model, only : model_t

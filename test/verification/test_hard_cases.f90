@@ -1,7 +1,7 @@
 !> Every deck in `decks/hard` by every method that claims to be stable, or the error that it has to end with.
 module test_hard_cases
    use testdrive, only : check, new_unittest, unittest_type, error_type, test_failed
-   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t

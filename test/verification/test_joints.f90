@@ -1,7 +1,7 @@
 !> Sliding joints of the train: kernels in closed form, forces against free bodies, energy, stops, refusals.
 module test_joints
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t, kind_deck
    use camroller_case, only : case_t
    use camroller_model, only : model_t, new_model, evaluate_geometry

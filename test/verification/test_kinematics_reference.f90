@@ -4,13 +4,13 @@
 !> numerically with 50 digits, without any of the formulas under test.
 module test_kinematics_reference
    use testdrive, only : unittest_type, new_unittest, error_type, test_failed
-   use camroller_kinds, only : wp, pi, degree
+   use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_kinematics, only : mechanism_t, linkage_t, position_t, rotation_names, new_linkage, evaluate_position
-   use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift
+   use camroller_kinematics, only : linkage_t, position_t, rotation_names, new_linkage, evaluate_position
+   use camroller_lift, only : lift_law_t, new_lift_law, evaluate_lift
    use labelled_table, only : read_labelled_table, label_length
-   use closeness, only : check_close, check_scaled
+   use closeness, only : check_scaled
    use reference_cases, only : thesis_case, skewed_case
    implicit none
    private

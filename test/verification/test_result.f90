@@ -3,7 +3,7 @@ module test_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_positive_inf, ieee_quiet_nan, ieee_value
    use, intrinsic :: ieee_exceptions, only : ieee_all, ieee_get_halting_mode, ieee_set_flag, ieee_set_halting_mode
    use, intrinsic :: iso_fortran_env, only : int64
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, kind_domain
    use camroller_case, only : case_t
@@ -12,7 +12,6 @@ module test_result
    use camroller_dynamics, only : moment_slope, moments_t, seat_force, stored_energy, unseated_share
    use camroller_events, only : contact_losses
    use camroller_kinematics, only : position_t
-   use camroller_lift, only : lift_t
    use camroller_model, only : model_t
    use camroller_result, only : result_t, check_numbers, find_quantity, get_summary
    use camroller_run, only : run_case

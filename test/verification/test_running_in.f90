@@ -11,7 +11,6 @@ module test_running_in
    use camroller_run, only : run_case
    use camroller_running_in, only : aged_t, run_in
    use camroller_state, only : state_t
-   use camroller_torque_list, only : of_residual
    use camroller_tribofilm, only : running_in_t, thickness_after, tribofilm_t
    use camroller_wear, only : wear_t
    use case_twins, only : compare_twins, leave_constants_out, rescale_case

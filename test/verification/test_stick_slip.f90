@@ -5,7 +5,7 @@ module test_stick_slip
    use camroller_error, only : error_t, kind_deck
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_state, only : state_t, evaluate_state
+   use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at, integrate_cycle
    use camroller_stick, only : rates_at_rest
    use camroller_means, only : integrate_torques
@@ -14,7 +14,7 @@ module test_stick_slip
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic, append_curve, append_until, interpolate_state
    use camroller_torque_list, only : torque_count, is_loss, of_residual
    use closeness, only : check_scaled
-   use reference_cases, only : thesis_case, skewed_case, set_point, make_model, make_cycle, point_speeds, point_viscosities
+   use reference_cases, only : thesis_case, set_point, make_model, make_cycle, point_speeds, point_viscosities
    implicit none
    private
 

@@ -4,9 +4,8 @@ module flexible_cases
    use camroller_case, only : case_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
-   use camroller_lash_adjuster, only : lash_adjuster_t
    use camroller_samples, only : sample_independent
-   use camroller_flexible_train, only : state_size, first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
+   use camroller_flexible_train, only : first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
       & at_plunger, at_plunger_rate, at_pressure
    implicit none
    private

@@ -6,7 +6,7 @@
 module wide_decks
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
-   use camroller_deck_schema, only : schema_t, key_t, group_effect, group_required, type_integer, type_integers, type_logical, &
+   use camroller_deck_schema, only : schema_t, key_t, group_required, type_integer, type_integers, type_logical, &
       & type_name, type_number, type_numbers, type_text
    use camroller_deck_tables, only : deck_tables_t
    use camroller_table_file, only : table_t
