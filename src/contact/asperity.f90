@@ -5,7 +5,7 @@
 !> Sources: Greenwood and Tripp (1970), Proc. Instn Mech. Engrs 185, 625-633; Islam (2019) eqs. (34)-(36) with
 !> (eta beta sigma) squared in the real area as well. Zhao, Maietta and Chang (2000), J. Tribol. 122, 86-93.
 module camroller_asperity
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp, pi, gas_constant
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_boundary_law, only : boundary_curve_t, boundary_law_t, evaluate_boundary_curve, new_boundary_curve
    use camroller_names, only : name_length, find_name
@@ -63,9 +63,6 @@ module camroller_asperity
       !> Its concentration over that at which the coverage is known [-]
       real(wp) :: concentration_ratio = 1.0_wp
    end type friction_modifier_t
-
-   !> Gas constant [J/(mol K)]
-   real(wp), parameter :: gas_constant = 8.314462618_wp
 
    !> What a contact needs of the asperities
    type :: asperity_constants_t

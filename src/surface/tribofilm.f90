@@ -4,7 +4,7 @@
 !> Growth is a reaction that stress and heat activate: Gosvami, Bares, Mangolini, Konicek, Yablon and Carpick (2015), Science 348,
 !> 102-106; Zhang and Spikes (2016), Tribol. Lett. 63, 24. `dh/dt = k_g exp(-(E_a - tau v_a)/(k_B T)) (1 - h/h_max) - k_w h`.
 module camroller_tribofilm
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, gas_constant
    implicit none
    private
 
@@ -36,8 +36,8 @@ module camroller_tribofilm
       integer :: places = 180
    end type running_in_t
 
-   !> Avogadro and gas constant, exact since 2019 [1/mol], [J/(mol K)]
-   real(wp), parameter :: avogadro = 6.02214076e23_wp, gas_constant = 8.31446261815324_wp
+   !> Avogadro constant, exact since 2019 [1/mol]
+   real(wp), parameter :: avogadro = 6.02214076e23_wp
 
 contains
 
