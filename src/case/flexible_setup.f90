@@ -4,6 +4,7 @@
 module camroller_flexible_setup
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck, kind_convergence
+   use camroller_contact_compliance, only : line_approach
    use camroller_case, only : case_t, energy_names
    use camroller_asperity, only : mobilisation_names
    use camroller_kinematics, only : linkage_t, position_t, evaluate_position
@@ -236,7 +237,8 @@ contains
       integer :: i, status
 
       call evaluate_position(linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], closed, status)
-      distance = closed%rolling_travel + linkage%roller_radius - flexible%compliance*load**0.9_wp - load/flexible%finger_stiffness
+      distance = closed%rolling_travel + linkage%roller_radius - line_approach(flexible%compliance, load) &
+         & - load/flexible%finger_stiffness
       rest%finger = linkage%base_angle
       rest%pivot = 0.0_wp
       last_way = huge(1.0_wp)

@@ -27,7 +27,7 @@ module camroller_model
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : boundary_part_t, boundary_names, new_boundary_part, set_boundary_temperature
    use camroller_number_text, only : number_text
-   use camroller_traction, only : shear_law_names, limit_names, limit_local, cap_names, rolling_law_names
+   use camroller_traction, only : shear_law_names, law_eyring, limit_names, limit_local, cap_names, rolling_law_names
    use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
    use camroller_needle, only : bearing_part_t, new_bearing_part, set_bearing_oil
    use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil, set_drag_speed
@@ -385,7 +385,7 @@ contains
          call raise(error, kind_deck, "mechanism and materials: contact width and moduli must be positive")
       else if (.not. (model%limiting_coefficient > 0.0_wp .and. case%traction%limiting_stress >= 0.0_wp)) then
          call raise(error, kind_deck, "traction: the limiting coefficient must be positive, the limiting stress not negative")
-      else if (model%shear_law == 2 .and. .not. model%eyring_stress > 0.0_wp) then
+      else if (model%shear_law == law_eyring .and. .not. model%eyring_stress > 0.0_wp) then
          call raise(error, kind_deck, "traction: the Eyring law needs a positive eyring stress")
       else if (model%film_law == law_masjedi_khonsari_rough .and. .not. model%hardness > 0.0_wp) then
          call raise(error, kind_deck, "materials: the film law 'masjedi_khonsari_rough' needs the hardness")

@@ -69,7 +69,7 @@ module camroller_cycle
    !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
    real(wp), parameter :: contact_accuracy = 1.0e-3_wp
    !> Error allowed per step over the error allowed in the cycle: errors of a few steps add up before they decay [-]
-   real(wp), parameter :: step_part = 0.2_wp
+   real(wp), parameter, public :: step_part = 0.2_wp
    !> First step of a method with error control [rad]
    real(wp), parameter :: first_step = 0.1_wp*degree
    !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows

@@ -11,6 +11,7 @@ module camroller_cycle_start
    use camroller_number_text, only : integer_text, number_text
    use camroller_spin, only : rolling_speed_at
    use camroller_balance, only : follow_balance, least_slip
+   use camroller_ode_explicit, only : dormand_prince_limit
    implicit none
    private
 
@@ -100,12 +101,10 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Stable step times decay rate of Dormand and Prince's pair (Hairer and Wanner 1996, section IV.2) [-]
-      real(wp), parameter :: stable = 3.3_wp
       ! Steps that the turn takes at least [-]
       real(wp) :: steps
 
-      steps = sum(min(decay_rates, cshift(decay_rates, 1)))*two_pi/(size(decay_rates)*stable)
+      steps = sum(min(decay_rates, cshift(decay_rates, 1)))*two_pi/(size(decay_rates)*dormand_prince_limit)
       if (steps <= most_steps) return
       call raise(error, kind_convergence, "method '"//trim(method)//"' is explicit, and its steps are stable over a few times "// &
          & "what the slip decays in, down to "//number_text(1.0_wp/(maxval(decay_rates)*degree), 2)//" deg: "// &

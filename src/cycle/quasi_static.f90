@@ -12,7 +12,7 @@ module camroller_quasi_static
    use camroller_kinematics, only : position_t
    use camroller_balance, only : follow_balance
    use camroller_ode, only : counters_t
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic, least_segment, stop_margin
    implicit none
    private
 
@@ -48,13 +48,13 @@ contains
       real(wp) :: left_value, right_value
       integer :: segment, interval, intervals
 
-      margin = 4.0_wp*spacing(maxval(abs(stops)))
+      margin = stop_margin(stops)
       trajectory%is_linear = .true.
       call start_trajectory(trajectory, 1)
       do segment = 1, size(stops) - 1
          left = stops(segment) + margin
          length = stops(segment + 1) - margin - left
-         if (length <= 64.0_wp*margin) cycle
+         if (length <= least_segment*margin) cycle
          intervals = ceiling(length/longest_interval)
          length = length/intervals
          call balance_at(model, left, tolerance, 0.0_wp, left_value, counters, error)

@@ -17,7 +17,8 @@ module camroller_stick_slip
    use camroller_spin, only : spin_problem_t
    use camroller_stick, only : rates_at_rest, breakaway, rest_speed, touching_capacity
    use camroller_ode, only : method_t, options_t, counters_t, integrate
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic, append_until, interpolate_state
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic, append_until, interpolate_state, &
+      & least_segment, stop_margin
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    implicit none
    private
@@ -84,7 +85,7 @@ contains
       walk = start_walk(options, stops, state(1))
       call start_trajectory(trajectory, size(state))
       allocate (phases(0))
-      do while (walk%finish - walk%angle > 64.0_wp*walk%margin)
+      do while (walk%finish - walk%angle > least_segment*walk%margin)
          call choose_direction(problem, walk, direction, counters, error)
          if (allocated(error)) return
          call enter_phase(phases, walk%angle, direction)
@@ -118,7 +119,7 @@ contains
 
       walk%angle = stops(1)
       walk%finish = stops(size(stops))
-      walk%margin = 4.0_wp*spacing(maxval(abs(stops)))
+      walk%margin = stop_margin(stops)
       walk%sliding_speed = sliding_speed
       walk%stretch = walk%finish - walk%angle
       walk%step = options%step
@@ -197,7 +198,7 @@ contains
       logical :: has_turned
 
       reach = walk%finish
-      if (walk%angle + walk%stretch < reach - 64.0_wp*walk%margin) reach = walk%angle + walk%stretch
+      if (walk%angle + walk%stretch < reach - least_segment*walk%margin) reach = walk%angle + walk%stretch
       state = walk%sliding_speed
       piece_options = options
       piece_options%step = walk%step
@@ -323,8 +324,8 @@ contains
       walk%stretch = short_stretch
       step = longest_scan
       direction = 0
-      do while (walk%finish - walk%angle > 64.0_wp*walk%margin)
-         segment_end = minval(stops, mask=stops > walk%angle + 64.0_wp*walk%margin)
+      do while (walk%finish - walk%angle > least_segment*walk%margin)
+         segment_end = minval(stops, mask=stops > walk%angle + least_segment*walk%margin)
          angles(3) = walk%angle + walk%margin
          call counted_rates(problem, angles(3), rates(:, 3), counters, error)
          if (.not. allocated(error)) direction = breakaway(rates(:, 3), walk%rest_rate)

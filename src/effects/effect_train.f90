@@ -6,6 +6,7 @@
 !> What parts or returns within the event is not estimated.
 module camroller_effect_train
    use camroller_kinds, only : wp, pi, two_pi
+   use camroller_contact_compliance, only : line_approach
    use camroller_dynamics, only : moments_t
    use camroller_effect_grid, only : grid_t, points
    use camroller_error, only : error_t
@@ -254,7 +255,7 @@ contains
       !> Approach [m]
       real(wp) :: approach
 
-      approach = flexible%compliance*load**0.9_wp + load/flexible%finger_stiffness
+      approach = line_approach(flexible%compliance, load) + load/flexible%finger_stiffness
    end function approach_of
 
    !> Lift of the bent train: the lift that its forces make is the lift that leaves these forces.

@@ -5,6 +5,7 @@
 !> or contact have a kink, so that no event is stepped over. Cycles are repeated until start and end agree. After a loss of
 !> contact the film is computed without previous states.
 module camroller_ehl_cycle
+   use camroller_balance, only : least_slip
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_convergence, kind_domain
@@ -63,9 +64,8 @@ module camroller_ehl_cycle
    real(wp), parameter :: least_damping = 0.5_wp
    !> Growth of a step: safety, most and least; what counts as error of a step with nothing to compare with [-]
    real(wp), parameter :: safety = 0.85_wp, most_growth = 2.0_wp, least_growth = 0.2_wp, unknown_excess = 0.2_wp
-   !> Sliding speed below which errors are measured by the largest of the cycle so far [m/s]; what counts as no sliding, over the
-   !> largest speed of pure rolling [-]
-   real(wp), parameter :: small_slip = 1.0e-3_wp, least_slip = 1.0e-5_wp
+   !> Sliding speed below which errors are measured by the largest of the cycle so far [m/s]
+   real(wp), parameter :: small_slip = 1.0e-3_wp
    !> Thinnest film of a cycle over b^2/R from which on the spike of the pressure, where there is one, is about the middle [-]
    real(wp), parameter :: rigid_film = 1.0_wp
    !> Part of the error of a step that may be left of the sliding speed when film and forces agree [-]

@@ -2,6 +2,7 @@
 !>
 !> In: cycles on two grids. Out: their scalars and the differences; an error where a difference exceeds the accuracy.
 module camroller_ehl_summary
+   use camroller_balance, only : least_slip
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ehl_cycle, only : ehl_cycle_t
@@ -24,9 +25,6 @@ module camroller_ehl_summary
       !> Mean of the sliding speed, of its size, of the rolling speed's size [m/s]
       real(wp) :: mean_slip = 0.0_wp, mean_size = 0.0_wp, mean_rolling = 0.0_wp
    end type ehl_summary_t
-
-   !> Sliding speed that counts as none, over the speed of pure rolling [-]: what the integration of a spin takes as the least scale
-   real(wp), parameter :: least_slip = 1.0e-5_wp
 
 contains
 

@@ -9,7 +9,8 @@ module camroller_contact_compliance
    implicit none
    private
 
-   public :: line_compliance, series_load, series_energy, damping_factor, one_sided_force, restitution, damping_of_restitution
+   public :: line_compliance, line_approach, series_load, series_energy, damping_factor, one_sided_force, restitution
+   public :: damping_of_restitution
 
    !> Power of the load in Palmgren's approach [-]
    real(wp), parameter :: power = 0.9_wp
@@ -33,6 +34,18 @@ contains
 
       compliance = steel_approach*(steel_modulus/modulus)**power/length**0.8_wp
    end function line_compliance
+
+   !> Approach of a line contact, `c_H W^0.9`.
+   elemental function line_approach(compliance, load) result(approach)
+      !> c_H [m/N^0.9]
+      real(wp), intent(in) :: compliance
+      !> Load, W [N]
+      real(wp), intent(in) :: load
+      !> The approach [m]
+      real(wp) :: approach
+
+      approach = compliance*load**power
+   end function line_approach
 
    !> Elastic load of a line contact in series with a spring, `delta = c_H W^0.9 + W/k_b`; zero without approach.
    !>

@@ -6,6 +6,7 @@ module camroller_flexible_solution
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_deck
    use camroller_accuracy, only : has_error_control
+   use camroller_balance, only : least_slip
    use camroller_case, only : numerics_t
    use camroller_names, only : name_length
    use camroller_model, only : model_t
@@ -171,7 +172,7 @@ contains
          if (allocated(error)) return
          hint = 1
          other_hint = 1
-         largest = [tiny(1.0_wp), 1.0e-5_wp*model%speed*model%roller_radius]
+         largest = [tiny(1.0_wp), least_slip*model%speed*model%roller_radius]
          differences = 0.0_wp
          do i = 0, parts*(path%count - 1)
             ! Between points the curve may be worse

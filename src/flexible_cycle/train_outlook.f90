@@ -7,7 +7,7 @@
 !> residual vibration behind a cam; Wahl, Mechanical Springs (1963), for surge.
 module camroller_train_outlook
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_contact_compliance, only : series_load
+   use camroller_contact_compliance, only : line_approach, series_load
    use camroller_dynamics, only : evaluate_moments, moments_t
    use camroller_flexible_parts, only : dynamics_t, flexible_t, set_contacts
    use camroller_kinematics, only : position_t
@@ -128,7 +128,7 @@ contains
       approach = [-position%normal_arm, 0.0_wp, -dot_product(normal, axis)]
       pad = [position%valve_arm, -1.0_wp, -cos(model%pivot%tilt)]
 
-      call series_load(flexible%compliance, flexible%finger_stiffness, flexible%compliance*load**0.9_wp &
+      call series_load(flexible%compliance, flexible%finger_stiffness, line_approach(flexible%compliance, load) &
          & + load/flexible%finger_stiffness, load, contact_stiffness)
       stiffness = contact_stiffness*outer(approach) + flexible%pad_stiffness*outer(pad)
       stiffness(valve, valve) = stiffness(valve, valve) + model%train%stiffness

@@ -19,7 +19,7 @@ module camroller_balance
 
    !> Steps from a guess nearby before the search restarts: each gains a digit or more
    integer, parameter :: max_steps = 12
-   !> Sliding speed that counts as a scale where the balance gives less, over the speed of pure rolling [-]
+   !> Sliding speed that counts as none, and as a scale where there is less, over the speed of pure rolling [-]
    real(wp), parameter :: least_slip = 1.0e-5_wp
 
 contains

@@ -19,6 +19,9 @@ module camroller_ode_explicit
 
    public :: explicit_method_t, new_explicit_method
 
+   !> Product of decay rate and step at which Dormand and Prince's pair turns unstable (Hairer and Wanner 1996, section IV.2) [-]
+   real(wp), parameter, public :: dormand_prince_limit = 3.306_wp
+
    !> An explicit method: its table and its work space
    type, extends(method_t) :: explicit_method_t
       !> Stages that each step evaluates
@@ -70,7 +73,7 @@ contains
 
       method%stages = 6
       method%error_order = 5
-      method%stability_limit = 3.306_wp
+      method%stability_limit = dormand_prince_limit
       allocate (method%nodes(6), method%weights(6, 6), method%error_weights(7))
       method%nodes = [1.0_wp/5.0_wp, 3.0_wp/10.0_wp, 4.0_wp/5.0_wp, 8.0_wp/9.0_wp, 1.0_wp, 1.0_wp]
       method%weights = 0.0_wp

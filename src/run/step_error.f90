@@ -14,7 +14,7 @@
 module camroller_step_error
    use camroller_kinds, only : wp
    use camroller_contact_traction, only : largest_shear
-   use camroller_cycle, only : cycle_t, state_at
+   use camroller_cycle, only : cycle_t, state_at, step_part
    use camroller_defects, only : defect_at
    use camroller_error, only : error_t
    use camroller_model, only : model_t
@@ -41,9 +41,8 @@ module camroller_step_error
 
    !> Roundings of the roller's surface speed that an error of the sliding speed may have, and one of the spin itself [-]
    real(wp), parameter :: roundings = 16.0_wp, several = 4.0_wp
-   !> Part of its tolerance that the sliding speed may miss in a step of the integration [-], see `cycle`; tolerances to which such
-   !> errors add up at most where they hardly decay [-]: 2.5 were met
-   real(wp), parameter :: step_part = 0.2_wp, most_carried = 3.0_wp
+   !> Tolerances to which errors of steps, each `step_part` of one, add up at most where they hardly decay [-]: 2.5 were met
+   real(wp), parameter :: most_carried = 3.0_wp
    !> Margin of the error of a torque, whose slopes leave out what film and asperities do [-]: true errors without it were up to 1.7
    !> times as large with the bookkeeping of the source
    real(wp), parameter :: margin = 2.0_wp

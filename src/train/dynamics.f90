@@ -260,8 +260,7 @@ contains
       left = 0.0_wp
       if (is_seated(train, position%lift)) left = 1.0_wp - position%lift/train%seat_lift
       energy = train%stiffness*position%lift*(0.5_wp*position%lift + train%precompression) &
-         & - train%closed_seat_force*train%seat_lift/3.0_wp*(1.0_wp - left**3) &
-         & + 0.5_wp*speed**2*(train%valve_mass*position%lift_slope**2 + train%finger_inertia*position%finger_slope**2)
+         & - train%closed_seat_force*train%seat_lift/3.0_wp*(1.0_wp - left**3) + kinetic_energy(train, position, speed)
    end function stored_energy
 
    !> Rate of change of `stored_energy`, plus the work done on the gas.
