@@ -19,11 +19,6 @@ def table(head, rows):
         yield "| " + " | ".join(row) + " |"
 
 
-def one_decimal(value, scale):
-    """Number with one decimal."""
-    return f"{float(value) * scale:.1f}"
-
-
 def coefficient(points):
     """Mean friction force over mean load [-]."""
     return points.scalar("mean_friction_contact") / points.scalar("mean_contact_load")

@@ -287,7 +287,7 @@ contains
       problem%has_surface_speed = cycle%has_surface_speed
       problem%accuracy = contact_accuracy*resolved%tolerance
       if (cycle%is_linear) problem%accuracy = 0.0_wp
-      call take_scale(scale, resolved%tolerance, problem, options)
+      options%tolerance = [step_part*resolved%tolerance*scale]
       options%step = numerics%step
       if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
       if (method%needs_jacobian) then
@@ -295,21 +295,6 @@ contains
          options%max_evaluations = evaluations_allowed(resolved%tolerance)
       end if
    end subroutine choose_method
-
-   !> Make tolerances relative to a scale of the sliding speed.
-   pure subroutine take_scale(scale, tolerance, problem, options)
-      !> Scale of the sliding speed [m/s]
-      real(wp), intent(in) :: scale
-      !> Tolerance of the cycle [-]
-      real(wp), intent(in) :: tolerance
-      !> The roller's spin
-      type(spin_problem_t), intent(inout) :: problem
-      !> Tolerance of a step
-      type(options_t), intent(inout) :: options
-
-      problem%small_state = [scale]
-      options%tolerance = [step_part*tolerance*scale]
-   end subroutine take_scale
 
    !> Integrate with a finer tolerance from now on: errors of the integration keep start and end of a cycle apart.
    pure subroutine refine(scale, tolerance, problem, options, best)
@@ -327,7 +312,7 @@ contains
       best = huge(1.0_wp)
       tolerance = max(min(tolerance, finest_tolerance), finer*tolerance)
       problem%accuracy = min(problem%accuracy, contact_accuracy*tolerance)
-      call take_scale(scale, tolerance, problem, options)
+      options%tolerance = [step_part*tolerance*scale]
    end subroutine refine
 
    !> Refuse set-valued friction with a method without error control.

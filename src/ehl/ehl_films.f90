@@ -20,8 +20,8 @@ module camroller_ehl_films
       real(wp) :: central = 0.0_wp, minimum = 0.0_wp
       !> Estimated relative error of both, and what they differ by on a grid with half the nodes; zero: no other grid [-]
       real(wp) :: error = 0.0_wp, difference = 0.0_wp
-      !> Place of the smallest film, of the highest pressure, where the film ends [m]
-      real(wp) :: minimum_place = 0.0_wp, peak_place = 0.0_wp, end_place = 0.0_wp
+      !> Place of the highest pressure, where the film ends [m]
+      real(wp) :: peak_place = 0.0_wp, end_place = 0.0_wp
       !> Highest pressure [Pa]
       real(wp) :: peak = 0.0_wp
       !> Second moment of the pressure over that of the dry contact [-]
@@ -40,8 +40,8 @@ module camroller_ehl_films
       real(wp), allocatable :: cells(:, :)
       !> Mean of the limiting traction coefficient over that of the oil around: by the temperature, weighed with the pressure [-]
       real(wp) :: limit_part = 1.0_wp
-      !> Rise of the film's temperature: mean over the dry contact, and largest [K]
-      real(wp) :: mean_rise = 0.0_wp, largest_rise = 0.0_wp
+      !> Rise of the film's temperature, mean over the dry contact [K]
+      real(wp) :: mean_rise = 0.0_wp
       !> Mass flow over density and speed, equal everywhere in the full film [m]
       real(wp) :: flow = 0.0_wp
       !> What load and flow lack, relative [-]
@@ -100,7 +100,7 @@ contains
       !> Film and friction
       type(ehl_films_t), intent(out) :: films
 
-      ! Position [half widths] and value at the vertex of a parabola; position of the middle [half widths]
+      ! Position [half widths] and value at the vertex of a parabola
       real(wp) :: place, value
       ! Flow into the contact [-]
       real(wp) :: flow
@@ -113,7 +113,6 @@ contains
          ! By the logarithm, so that a dip narrower than the nodes has a film above zero still
          call vertex(x(i - 1:i + 1), log(fields%film(i - 1:i + 1)), place, value)
          films%minimum = problem%film_scale*exp(value)
-         films%minimum_place = problem%length_scale*place
          i = min(max(maxloc(state%total, dim=1), 2), n - 1)
          films%peak = problem%pressure_scale*state%total(i)
          films%peak_place = problem%length_scale*x(i)
@@ -130,7 +129,6 @@ contains
          if (allocated(fields%rise)) then
             films%limit_part = integral(grid, state%total*exp(-problem%heat%limit_fall*fields%rise))/integral(grid, state%total)
             films%mean_rise = sum(grid%weight*fields%rise, mask=abs(x) <= 1.0_wp)/sum(grid%weight, mask=abs(x) <= 1.0_wp)
-            films%largest_rise = maxval(fields%rise)
          end if
       end associate
       call get_friction(problem, grid, state, films)

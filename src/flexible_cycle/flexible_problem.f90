@@ -141,7 +141,7 @@ contains
       type(resolution_t) :: resolution
       logical :: has_moving_oil
 
-      associate (model => self%model, ramp => self%model%ramp)
+      associate (model => self%model, ramp => self%model%ramp, later_angles => horizon)
          counters%evaluations = counters%evaluations + 1
          counters%jacobians = counters%jacobians + 1
          call follow_ramp(model, time)
@@ -149,21 +149,21 @@ contains
          resolution = self%resolution
          ! What the oil adds to the derivative is a difference of two evaluations
          if (has_moving_oil) resolution%forces = 0.0_wp
-         call evaluate_train(model, min(time, horizon), state, resolution, now, status)
+         call evaluate_train(model, time, state, resolution, now, status)
          if (status /= 0) return
          call rates_of(model, state, now, linear%rate)
          call slopes_of(model, time, state, now, linear%jacobian, linear%time_slope)
          if (abs(model%speed_slope) > 0.0_wp) linear%time_slope = linear%time_slope - (model%speed_slope/model%speed)*linear%rate
       end associate
-      if (has_moving_oil) call add_oil(self, time, min(time, horizon), state, linear, counters, status)
+      if (has_moving_oil) call add_oil(self, time, state, linear, counters, status)
    end subroutine linearise
 
    !> Add what oil temperature and supply pressure that change do to the derivative over the cam angle: a difference at one state.
-   subroutine add_oil(self, time, angle, state, linear, counters, status)
+   subroutine add_oil(self, time, state, linear, counters, status)
       !> The problem, with its model at the inputs of the angle
       class(flexible_problem_t), intent(in) :: self
-      !> Cam angle of the inputs, and that of the state [rad]
-      real(wp), intent(in) :: time, angle
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
       !> State [state]
       real(wp), intent(in) :: state(:)
       !> Rate with its derivatives; out: with the oil's
@@ -181,7 +181,7 @@ contains
 
       counters%evaluations = counters%evaluations + 1
       call follow_ramp(self%model, time, time + increment)
-      call evaluate_train(self%model, angle, state, resolution_t(sliding_speed=self%resolution%sliding_speed), now, status)
+      call evaluate_train(self%model, time, state, resolution_t(sliding_speed=self%resolution%sliding_speed), now, status)
       if (status == 0) then
          call rates_of(self%model, state, now, rate)
          linear%time_slope = linear%time_slope + (rate - linear%rate)/increment
@@ -264,7 +264,8 @@ contains
       character(len=words_length) :: text
 
       text = cam_angle_text(time, 3)
-      if (.not. associated(self%model)) text = ""
+      associate (for_all_problems => self)
+      end associate
    end function name_time
 
 end module camroller_flexible_problem

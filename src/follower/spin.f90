@@ -7,7 +7,7 @@ module camroller_spin
    use camroller_asperity, only : largest_coefficient
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp
-   use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two, words_length
+   use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, words_length
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_ramp, only : follow_ramp
    use camroller_kinematics, only : position_t
@@ -208,11 +208,11 @@ contains
 
    !> Rate with its derivatives over sliding speed and cam angle, all from one solution of the contact.
    subroutine linearise(self, time, state, horizon, linear, counters, status)
-      !> The problem
+      !> The problem, whose state is the sliding speed: no method that takes the surface speed needs derivatives
       class(spin_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
-      !> Sliding speed or surface speed [m/s]
+      !> Sliding speed [m/s]
       real(wp), intent(in) :: state(:)
       !> Cam angle up to which the right-hand side is smooth [rad]
       real(wp), intent(in) :: horizon
@@ -234,10 +234,6 @@ contains
       type(contact_t) :: start
       logical :: has_difference
 
-      if (self%has_surface_speed) then
-         call linearise_in_two(self, time, state, horizon, linear, counters, status)
-         return
-      end if
       counters%evaluations = counters%evaluations + 1
       counters%jacobians = counters%jacobians + 1
       has_difference = needs_difference(self%model)

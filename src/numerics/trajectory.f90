@@ -33,8 +33,8 @@ module camroller_trajectory
 
    !> Points for which a new trajectory has room
    integer, parameter :: first_room = 64
-   !> Numbers that make a curve, and how many of them are bends
-   integer, parameter, public :: curve_numbers = 6, most_bends = 4
+   !> Numbers that make a curve
+   integer, parameter, public :: curve_numbers = 6
    !> Shortest segment that is integrated, and longest interval that is no step but one that was passed over, over the margin at a
    !> stop: two margins more, and some for the margin's own rounding [-]
    real(wp), parameter, public :: least_segment = 64.0_wp

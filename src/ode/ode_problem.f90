@@ -12,7 +12,7 @@ module camroller_ode_problem
    implicit none
    private
 
-   public :: problem_t, linear_t, counters_t, factors_t, new_linear, copy_linear, new_factors, linearise_in_two, time_increment
+   public :: problem_t, linear_t, counters_t, factors_t, new_linear, copy_linear, new_factors, time_increment
    public :: words_length
 
    !> Length of a time in words
