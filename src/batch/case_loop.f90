@@ -32,7 +32,7 @@ module camroller_case_loop
    private
 
    public :: loop_t, compute_cases, number_of_cores, set_threads, sweep_cases
-   public :: ended_all, ended_by_signal, ended_by_time, ended_by_error
+   public :: ended_all, ended_by_time
 
    !> What ended the loop
    integer, parameter :: ended_all = 0, ended_by_signal = 1, ended_by_time = 2, ended_by_error = 3

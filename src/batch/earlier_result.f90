@@ -16,7 +16,7 @@ module camroller_earlier_result
    implicit none
    private
 
-   public :: earlier_t, look_at_earlier, failures_in_words, nothing_there, complete_there, partial_there, other_there
+   public :: earlier_t, look_at_earlier, failures_in_words, complete_there, partial_there, other_there
 
    !> Nothing is there; all cases of this study are; some are; something else is
    integer, parameter :: nothing_there = 0, complete_there = 1, partial_there = 2, other_there = 3

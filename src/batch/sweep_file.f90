@@ -24,7 +24,7 @@ module camroller_sweep_file
    implicit none
    private
 
-   public :: study_t, sweep_options_t, sweep_report_t, sweep_unfinished, sweep_made, sweep_was_complete, sweep_shard_done
+   public :: study_t, sweep_options_t, sweep_report_t, sweep_made, sweep_was_complete, sweep_shard_done
    public :: make_result, open_result, conclude, scan_all, series_choice, tell_damages
 
    !> How a sweep may end: without its file; the file was made; it was there with all cases; all cases of a shard are computed

@@ -16,7 +16,7 @@ module camroller_quasi_static
    implicit none
    private
 
-   public :: quasi_static_cycle, longest_interval
+   public :: quasi_static_cycle
 
    !> Longest interval between points [rad]
    real(wp), parameter :: longest_interval = 2.0_wp*degree

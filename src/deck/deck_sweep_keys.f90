@@ -11,7 +11,7 @@ module camroller_deck_sweep_keys
    implicit none
    private
 
-   public :: add_sweep_keys, sweep_key_count, series_choice_names
+   public :: add_sweep_keys, sweep_key_count
 
    !> Keys that one sweep can vary without a table
    integer, parameter :: sweep_key_count = 8

@@ -9,7 +9,7 @@ module camroller_deck_bounds
    implicit none
    private
 
-   public :: smallest_size, largest_size, is_bounded, say_bounds, write_bounds
+   public :: largest_size, is_bounded, say_bounds, write_bounds
 
    !> Units that share their bounds, and the bounds
    type :: bounds_t

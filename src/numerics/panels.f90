@@ -42,7 +42,7 @@ module camroller_panels
       & 0.608177901175700337734926997906715_wp, -0.663594470046082949308755760368663_wp]
    !> Weights of the polynomial through the values at the nodes by the barycentric formula, outermost first: one over the product of
    !> the distances of each from the others, over that of the middle one [-]
-   real(wp), parameter, private :: half_weights(4) = [0.238956239980465031008625599860_wp, -0.655446549391069012178619756428_wp, &
+   real(wp), parameter :: half_weights(4) = [0.238956239980465031008625599860_wp, -0.655446549391069012178619756428_wp, &
       & 0.916490309410603981169994156568_wp, -1.000000000000000000000000000000_wp]
    real(wp), parameter, public :: interpolation_weights(panel_points) = [half_weights, half_weights(3:1:-1)]
    !> Panel that is no longer halved, over the largest angle or time [-]

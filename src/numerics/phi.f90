@@ -7,7 +7,7 @@ module camroller_phi
    implicit none
    private
 
-   public :: phi_functions, most_functions
+   public :: phi_functions
 
    !> Functions that can be asked for
    integer, parameter :: most_functions = 7

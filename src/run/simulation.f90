@@ -26,7 +26,7 @@ module camroller_simulation
    implicit none
    private
 
-   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, least_step
+   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    public :: prepare_simulation, place_simulation, check_angle, check_step, put_back, has_films
    public :: get_point, set_point, get_lobe, get_mark, get_values, is_started
 

@@ -17,7 +17,7 @@ module camroller_audit
    private
 
    public :: new_audit_table, audit_case
-   public :: run_listed, run_without, run_none, run_alone, run_needed
+   public :: run_listed
 
    !> Runs of an audit: everything; without an effect; without all; with one alone; with those that are needed
    character(len=*), parameter :: run_listed = "listed", run_without = "without", run_none = "none", run_alone = "alone", &
