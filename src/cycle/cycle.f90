@@ -113,17 +113,16 @@ contains
 
       type(spin_problem_t) :: problem
       class(method_t), allocatable :: method
-      type(options_t) :: options
+      type(options_t) :: options, turn_options
       ! Stops within one turn [rad]
       real(wp), allocatable :: stops(:)
-      ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed, the least one, largest met [m/s]
-      real(wp) :: state(1), first(1), scale, least, largest
-      ! Start and end of the turn before [m/s]; smallest closure with this tolerance [-]
-      real(wp) :: last(2), best
-      ! Decay rates of the slip at angles evenly spaced over the turn [1/rad]
-      real(wp) :: decay_rates(balance_points)
+      ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed, the least one [m/s]
+      real(wp) :: state(1), first(1), scale, least
+      ! Start and end of the turn before [m/s]; smallest closure with this tolerance [-]; decay rates of the slip at angles evenly
+      ! spaced over the turn [1/rad]
+      real(wp) :: last(2), best, decay_rates(balance_points)
       type(numerics_t) :: resolved
-      type(options_t) :: turn_options
+      logical :: is_periodic
       integer :: turn
 
       resolved = resolve_numerics(numerics)
@@ -156,16 +155,17 @@ contains
          call allow_more(options, cycle%counters, turn_options)
          call integrate_spin(cycle, problem, method, turn_options, cycle%stops, state, error)
          if (allocated(error)) return
-         largest = scale
-         if (.not. cycle%has_surface_speed) largest = max(least, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
-         cycle%scale = largest
-         cycle%closure = abs(state(1) - first(1))/largest
-         if (is_periodic(cycle, problem, resolved%periodicity)) then
+         cycle%scale = scale
+         if (.not. cycle%has_surface_speed) cycle%scale = max(least, maxval(abs(cycle%trajectory%state(1, &
+            & :cycle%trajectory%count))))
+         cycle%closure = abs(state(1) - first(1))/cycle%scale
+         call judge_closure(cycle, problem, resolved%periodicity, is_periodic)
+         if (is_periodic) then
             if (allocated(cycle%phases)) cycle%stops = cycle_stops([cycle%stops, cycle%phases%start], cycle%start)
             if (.not. cycle%is_linear) cycle%step_error = options%tolerance(1)
             return
          end if
-         call approach(last, [first(1), state(1)], resolved%tolerance*largest, state(1))
+         call approach(last, [first(1), state(1)], resolved%tolerance*cycle%scale, state(1))
          if (turn > patience .and. cycle%closure > 0.5_wp*best) call refine(scale, resolved%tolerance, problem, options, best)
          best = min(best, cycle%closure)
       end do
@@ -230,29 +230,29 @@ contains
       last = this
    end subroutine approach
 
-   !> Is a cycle whose closure is known as close to the periodic one as it must be?
-   function is_periodic(cycle, problem, periodicity) result(verdict)
-      !> The cycle; its distance from the periodic one is set
+   !> Judge a cycle whose closure is known: is it as close to the periodic one as it must be?
+   subroutine judge_closure(cycle, problem, periodicity, is_periodic)
+      !> The cycle; out: with its distance from the periodic one where it closes, and the evaluations that this takes
       type(cycle_t), intent(inout) :: cycle
       !> The roller's spin
       type(spin_problem_t), intent(in) :: problem
       !> Largest distance [-]
       real(wp), intent(in) :: periodicity
-      !> True where it is
-      logical :: verdict
+      !> Is it?
+      logical, intent(out) :: is_periodic
 
       ! What the cycle leaves of a disturbance [-]
       real(wp) :: contraction
 
-      verdict = cycle%closure <= periodicity
-      if (.not. verdict) return
+      is_periodic = cycle%closure <= periodicity
+      if (.not. is_periodic) return
       associate (path => cycle%trajectory)
          call largest_contraction(problem, path, cycle%phases, sign(periodicity*cycle%scale, path%state(1, path%count) &
             & - path%state(1, 1)), contraction, cycle%counters%evaluations)
       end associate
       cycle%distance = cycle%closure/max(1.0_wp - contraction, epsilon(1.0_wp))
-      verdict = cycle%distance <= periodicity
-   end function is_periodic
+      is_periodic = cycle%distance <= periodicity
+   end subroutine judge_closure
 
    !> Problem, method and options of an integration.
    subroutine choose_method(cycle, model, numerics, scale, problem, method, options, error)

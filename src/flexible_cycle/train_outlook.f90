@@ -79,7 +79,8 @@ contains
          lift(i) = model%speed**2*position%lift_curvature
       end do
       associate (step => two_pi/(points*model%speed), pulse => outlook%frequencies(1))
-         outlook%load_factor = largest_response(pulse**2*load, pulse, outlook%damping_ratio, step)/maxval(load)
+         outlook%load_factor = largest_response(pulse**2*load, pulse, outlook%damping_ratio, step, &
+            & is_either_side=.false.)/maxval(load)
          if (.not. allocated(model%flexible)) return
          associate (modes => model%flexible%modes)
             outlook%surge = [(modes%stiffness*n*pi*largest_response(2.0_wp*modes%share(n)*lift, modes%frequency(n), &
@@ -191,7 +192,7 @@ contains
       !> omega [rad/s], zeta below 1 [-], time between two points [s]
       real(wp), intent(in) :: frequency, damping_ratio, step
       !> Do displacements below zero count as well?
-      logical, intent(in), optional :: is_either_side
+      logical, intent(in) :: is_either_side
       !> Largest x [any]
       real(wp) :: largest
 
@@ -199,7 +200,7 @@ contains
       real(wp) :: displacement(size(force)), rate(size(force))
 
       call follow_oscillator(force, frequency, damping_ratio, step, displacement, rate)
-      if (present(is_either_side)) displacement = abs(displacement)
+      if (is_either_side) displacement = abs(displacement)
       largest = maxval(displacement)
    end function largest_response
 
