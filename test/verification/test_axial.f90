@@ -1,6 +1,6 @@
 !> Load along the roller: slices against closed forms, the table made of them.
 module test_axial
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_axial_table, only : axial_part_t, axial_state, axial_state_t, effective_lengths, new_axial_part, slice_loads
    use camroller_error, only : error_t, kind_deck
    use camroller_kinds, only : wp, pi
