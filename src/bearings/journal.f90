@@ -14,7 +14,7 @@ module camroller_journal
    implicit none
    private
 
-   public :: cam_bearings_t, journal_t, journal_law_names
+   public :: cam_bearings_t, journal_t, journal_law_names, law_long, law_short, law_finite
    public :: new_journal, journal_torque, journal_at_speed, journal_friction, law_covers_width, width_advice
    public :: journal_solved, journal_without_film, find_tangent, film_friction, film_t, film_at
    public :: journal_motion_names, motion_quasi_steady, motion_orbit, law_can_orbit, orbit_advice, moves_like_finite, &
@@ -247,7 +247,8 @@ contains
       friction = film_friction(journal, load, t)
    end subroutine journal_friction
 
-   !> Friction of the film of a bearing.
+   !> Friction of the film on the journal: shear, and half of the moment of the load beside the centre, `1/2 W (c/r) e sin A` with
+   !> the attitude angle A. The bearing has as much less, which the shaft does not feel.
    pure function film_friction(journal, load, t) result(friction)
       !> The bearing
       type(journal_t), intent(in) :: journal
@@ -258,22 +259,20 @@ contains
       !> Friction at the journal's surface, against the rotation [N]
       real(wp) :: friction
 
-      !> sqrt(1 + t^2) [-]
-      real(wp) :: secant
+      !> sqrt(1 + t^2) [-], attitude angle and its slope [rad]
+      real(wp) :: secant, angle, unused
 
       secant = sqrt(1.0_wp + t**2)
       friction = journal%petroff_friction*secant
-      select case (journal%law)
-      case (law_long)
+      if (journal%law == law_long) then
          friction = friction*(2.0_wp + 6.0_wp*t**2)/(2.0_wp + 3.0_wp*t**2)
-      case (law_finite)
-         friction = friction + 0.5_wp*journal%clearance_ratio*abs(load)*(t/secant) &
-            & *sin(attitude_angle(journal%width_ratio, t))
-      end select
+      else
+         call find_attitude(journal, t, angle, unused)
+         friction = friction + 0.5_wp*journal%clearance_ratio*abs(load)*(t/secant)*sin(angle)
+      end if
    end function film_friction
 
-   !> Film of a bearing at an eccentricity, with its slopes. The attitude angle is a right one in the long bearing with its full
-   !> film, that of Ocvirk (1952) in the short one.
+   !> Film of a bearing at an eccentricity, with its slopes.
    pure function film_at(journal, t) result(film)
       !> The bearing
       type(journal_t), intent(in) :: journal
@@ -283,16 +282,30 @@ contains
       type(film_t) :: film
 
       call load_number(journal, t, film%number, film%number_slope)
+      call find_attitude(journal, t, film%angle, film%angle_slope)
+   end function film_at
+
+   !> Angle between load and line of centres, and its slope over ln t: a right angle in the long bearing with its full film, that of
+   !> Ocvirk (1952) in the short one, Butenschoen's fit for finite width.
+   pure subroutine find_attitude(journal, t, angle, slope)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(in) :: t
+      !> Attitude angle and its slope [rad]
+      real(wp), intent(out) :: angle, slope
+
       select case (journal%law)
       case (law_long)
-         film%angle = 0.5_wp*pi
+         angle = 0.5_wp*pi
+         slope = 0.0_wp
       case (law_short)
-         film%angle = atan2(pi, 4.0_wp*t)
-         film%angle_slope = -4.0_wp*pi*t/(16.0_wp*t**2 + pi**2)
+         angle = atan2(pi, 4.0_wp*t)
+         slope = -4.0_wp*pi*t/(16.0_wp*t**2 + pi**2)
       case default
-         call finite_angle(journal%width_ratio, t, film%angle, film%angle_slope)
+         call finite_angle(journal%width_ratio, t, angle, slope)
       end select
-   end function film_at
+   end subroutine find_attitude
 
    !> e/sqrt(1 - e^2) under a load, by Newton's method on logarithms: there the load number rises with a slope between 1 and 4
    !> which changes little, so that a few steps from a bound above the root suffice.
@@ -415,22 +428,7 @@ contains
       pole = 1.000026_wp + b*(0.023634_wp + b*(0.4215_wp + b*(0.038817_wp + b*0.090551_wp)))
    end function finite_pole
 
-   !> Angle between load and line of centres, Butenschoen's fit.
-   elemental function attitude_angle(b, t) result(angle)
-      !> Width over diameter [-]
-      real(wp), intent(in) :: b
-      !> e/sqrt(1 - e^2) [-]
-      real(wp), intent(in) :: t
-      !> Attitude angle [rad]
-      real(wp) :: angle
-
-      !> Slope of the angle [rad]
-      real(wp) :: unused
-
-      call finite_angle(b, t, angle, unused)
-   end function attitude_angle
-
-   !> The same with its slope over ln t.
+   !> Butenschoen's fit of the attitude angle, with its slope over ln t.
    elemental subroutine finite_angle(b, t, angle, slope)
       !> Width over diameter [-]
       real(wp), intent(in) :: b

@@ -48,10 +48,15 @@ def film_force(law, e):
 
 
 def film_torque(law, e):
-    """Torque on the journal: mean of journal and bearing for the short one, over eta omega."""
+    """Torque on the journal over eta omega."""
     petroff = 2 * math.pi * (DIAMETER / 2)**3 * WIDTH / CLEARANCE
     if law == 'short_ocvirk':
-        return petroff / math.sqrt(1 - e * e)
+        # shear on the journal, eta U/h + h/2 dp/dx: the second part is h/2 times the slope of the pressure times the width
+        def beside(phi):
+            h = 1 + e * math.cos(phi)
+            return e * h / 2 * (math.cos(phi) / h**3 + 3 * e * math.sin(phi)**2 / h**4)
+        near = [math.pi - 5 * math.sqrt(1 - e)]
+        return petroff / math.sqrt(1 - e * e) + DIAMETER / 2 * WIDTH**3 / (2 * CLEARANCE) * integral(beside, 0, math.pi, near)
     return petroff * 2 * (1 + 2 * e * e) / ((2 + e * e) * math.sqrt(1 - e * e))
 
 

@@ -193,6 +193,16 @@ def test_film_forces_of_bearings_are_the_closed_forms(e):
     assert abs(math.hypot(*bearing_reference.film_force('long_full_sommerfeld', e)) / long - 1) < 1e-10
 
 
+@pytest.mark.parametrize('law', ('short_ocvirk', 'long_full_sommerfeld'))
+@pytest.mark.parametrize('e', (0.1, 0.6, 0.95))
+def test_film_torque_on_the_journal_is_shear_and_half_the_moment_of_the_load(law, e):
+    """Moments of the film about the middle between both centres: journal and bearing share that of the load, c e times its part across."""
+    r, c, width = bearing_reference.DIAMETER / 2, bearing_reference.CLEARANCE, bearing_reference.WIDTH
+    shear = 2 * math.pi * r**3 * width / c / math.sqrt(1 - e * e)
+    beside = c * e / 2 * bearing_reference.film_force(law, e)[1]
+    assert abs(bearing_reference.film_torque(law, e) / (shear + beside) - 1) < 1e-10
+
+
 @pytest.mark.parametrize('width_ratio', (0.1, 0.5, 1.0))
 def test_velocity_of_journals_of_finite_width_is_near_that_of_reynolds_equation(width_ratio):
     """The fit of journal_motion.f90: size within 11 %, direction within 4 degrees; the grid itself is within 1 %."""
