@@ -9,15 +9,17 @@
 !>     Q  = omega r c L (1 - 0.223 (L/D)^2) e      side flow; the bracket is 1 for the short bearing, whose closed form it is
 !>     dT = 1/2 share P/(rho c_p Q)                with the mean power of friction P and the mean of e over the turn
 !>
+!> The fit of the bracket is for widths to one diameter, as it is used; beyond 1.2 a wider bearing would let less oil out.
+!>
 !> The bearing and its oil are too slow to follow a turn. Left out: oil that is pressed through by the pressure of the supply.
 module camroller_bearing_heat
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_deck
-   use camroller_journal, only : is_short, journal_t
+   use camroller_journal, only : cam_bearings_t, is_short, journal_law_names, journal_t, law_short
    implicit none
    private
 
-   public :: bearing_heat_t, check_bearing_heat, oil_flow, temperature_rise, direct_advice
+   public :: bearing_heat_t, check_bearing_heat, oil_flow, temperature_rise, direct_advice, flow_covers_width, flow_advice
 
    !> What a case says about heat of its camshaft bearings
    type :: bearing_heat_t
@@ -31,19 +33,42 @@ module camroller_bearing_heat
    character(len=*), parameter :: direct_advice = "the heat balance of camshaft bearings needs a viscosity that depends on the "// &
       & "temperature: another temperature_law than 'direct' in &lubricant"
 
+   !> Width over diameter to which the side flow is known, but for short bearings [-]
+   real(wp), parameter :: widest = 1.0_wp
+   !> What to say where it is not
+   character(len=*), parameter :: flow_advice = "the heat balance of camshaft bearings knows the oil that leaves at the sides "// &
+      & "of bearings up to 1 diameter wide; leave &bearing_heat out for wider ones"
+
 contains
 
    !> Refuse numbers that cannot be.
-   subroutine check_bearing_heat(heat, error)
+   subroutine check_bearing_heat(heat, bearings, error)
       !> What is given
       type(bearing_heat_t), intent(in) :: heat
+      !> The bearings
+      type(cam_bearings_t), intent(in) :: bearings
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
-      if (heat%heat_capacity > 0.0_wp .and. heat%oil_share >= 0.0_wp .and. heat%oil_share <= 1.0_wp) return
-      call raise(error, kind_deck, "the heat balance of camshaft bearings needs a heat capacity above zero, and a share of "// &
-         & "the oil from 0 to 1")
+      if (.not. (heat%heat_capacity > 0.0_wp .and. heat%oil_share >= 0.0_wp .and. heat%oil_share <= 1.0_wp)) then
+         call raise(error, kind_deck, "the heat balance of camshaft bearings needs a heat capacity above zero, and a share of "// &
+            & "the oil from 0 to 1")
+      else if (.not. flow_covers_width(bearings%law, bearings%width, bearings%diameter)) then
+         call raise(error, kind_deck, flow_advice)
+      end if
    end subroutine check_bearing_heat
+
+   !> Is the oil known that leaves a bearing of this width at its sides?
+   pure function flow_covers_width(law, width, diameter) result(answer)
+      !> One of `journal_law_names`
+      character(len=*), intent(in) :: law
+      !> Width and diameter [m]
+      real(wp), intent(in) :: width, diameter
+      !> Is it?
+      logical :: answer
+
+      answer = width <= widest*diameter .or. law == journal_law_names(law_short)
+   end function flow_covers_width
 
    !> Oil that leaves a bearing at its sides. Source: ISO 7902-1; Ocvirk (1952) for the short bearing.
    pure function oil_flow(journal, speed, eccentricity) result(flow)

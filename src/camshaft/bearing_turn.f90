@@ -231,7 +231,7 @@ contains
       ! Rise less the one that follows from it, at both ends and between; the higher end [K]
       real(wp) :: low, high, miss, last
 
-      call check_bearing_heat(heat, error)
+      call check_bearing_heat(heat, shaft%bearings, error)
       if (allocated(error)) return
       if (case%lubricant%temperature_law == temperature_law_names(law_direct)) then
          call raise(error, kind_deck, direct_advice)

@@ -3,11 +3,12 @@
 !> In: schema, settings. Out: groups and keys, the components of a case, and the rules that tie their keys to others.
 module camroller_deck_cam_bearings
    use camroller_bearing_asperity, only : bearing_asperity_t, clearance_advice, clearance_is_enough
-   use camroller_bearing_heat, only : bearing_heat_t, direct_advice
+   use camroller_bearing_heat, only : bearing_heat_t, direct_advice, flow_advice, flow_covers_width
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_numbers, anything, from_to, group_effect, &
       & not_negative, positive, range_t
+   use camroller_journal, only : law_covers_width
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, get_word, has_group, is_known, take
@@ -125,6 +126,7 @@ contains
       if (has_group(settings, warm)) then
          if (get_word(settings, "lubricant", "temperature_law") == "direct") call complain_about_group(mistakes, settings, warm, &
             & direct_advice)
+         call check_flow(settings, mistakes)
       end if
       if (.not. has_group(settings, mixed)) return
       if (.not. (is_known(settings, mixed, "roughness_um") .and. is_known(settings, bearings, "radial_clearance_um"))) return
@@ -133,6 +135,25 @@ contains
       if (.not. clearance_is_enough(roughness, clearance)) call complain(mistakes, settings, mixed, "roughness_um", &
          & clearance_advice)
    end subroutine check_bearing_parts
+
+   !> Rule: heat leaves with oil, whose flow is known for some widths.
+   subroutine check_flow(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      ! Dimensions of a bearing [m]
+      real(wp) :: width, diameter
+
+      if (.not. (is_known(settings, bearings, "width_mm") .and. is_known(settings, bearings, "diameter_mm"))) return
+      call take(settings, bearings, "width_mm", width)
+      call take(settings, bearings, "diameter_mm", diameter)
+      if (flow_covers_width(get_word(settings, bearings, "law"), width, diameter)) return
+      ! One complaint about a width is enough
+      if (law_covers_width(get_word(settings, bearings, "law"), width, diameter)) call complain(mistakes, settings, bearings, &
+         & "width_mm", flow_advice)
+   end subroutine check_flow
 
    !> Rules: the table of seals and drive rises in speed and temperature, and has a torque for each pair.
    subroutine check_drag(settings, mistakes)

@@ -237,6 +237,7 @@ contains
       type(case_t) :: case
       type(result_t) :: result
       type(shaft_simulation_t) :: shaft
+      integer :: law, i
 
       case = cold_case()
       call start_shaft(shaft, case, 0.0_wp, failure)
@@ -265,6 +266,20 @@ contains
       call check(error, allocated(failure), "a bearing without load has a temperature")
       if (allocated(error)) return
       call check(error, failure%kind == kind_domain .and. index(failure%message, "200 K") > 0)
+      ! ISO 7902-1 takes its fit of the side flow to widths of one diameter; Ocvirk's flow is exact for the short bearing
+      do law = 1, 2
+         case = cold_case()
+         case%cam_bearings%law = trim(merge("long_full_sommerfeld", "short_ocvirk        ", law == 1))
+         do i = 0, 1
+            case%cam_bearings%width = (1.0_wp + i*1.0e-3_wp)*case%cam_bearings%diameter
+            call run_case(case, result, failure)
+            call check(error, allocated(failure) .eqv. (law == 1 .and. i == 1), "width and law of a bearing with heat")
+            if (allocated(error)) return
+            if (.not. allocated(failure)) cycle
+            call check(error, failure%kind == kind_deck .and. index(failure%message, "up to 1 diameter wide") > 0, failure%message)
+            if (allocated(error)) return
+         end do
+      end do
    end subroutine test_refusals
 
 end module test_bearing_heat
