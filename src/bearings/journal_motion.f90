@@ -25,7 +25,10 @@ module camroller_journal_motion
    implicit none
    private
 
-   public :: film_velocity, journal_velocity, moving_state, short_force
+   public :: film_velocity, journal_velocity, moving_state, short_force, largest_fitted
+
+   !> Eccentricity up to which the velocities of finite width were fitted [-]
+   real(wp), parameter :: largest_fitted = 0.98_wp
 
 contains
 

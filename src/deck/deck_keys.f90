@@ -390,7 +390,9 @@ contains
       type(cam_bearings_t) :: standard
 
       call add_group(schema, "cam_bearings", group_effect, "camshaft, its bearings and its cams")
-      call add_name(schema, "law", journal_law_names, standard%law, "journal bearing law")
+      call add_name(schema, "law", journal_law_names, standard%law, &
+         & "journal bearing law, by width over diameter: 'finite' from 0.1 to 1, as most camshafts have it; 'short_ocvirk' up "// &
+         & "to 0.5; 'long_full_sommerfeld' from 2 on")
       call add_name(schema, "journal_motion", journal_motion_names, standard%journal_motion, &
          & "is a journal at each instant where a steady load would hold it, or on its orbit over the turn?")
       call add_number(schema, "diameter_mm", positive, "diameter of the journals", example="23")

@@ -6,7 +6,7 @@ module camroller_case_facts
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_journal, only : journal_law_names
+   use camroller_journal_range, only : compare_width
    use camroller_kinematics, only : position_t
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
@@ -26,8 +26,6 @@ module camroller_case_facts
    real(wp), parameter :: ramp_height = 1.0e-4_wp
    !> Digits of numbers
    integer, parameter :: digits = 3
-   !> Width over diameter from which a bearing counts as long: Cameron (1966), The Principles of Lubrication [-]
-   real(wp), parameter :: long_ratio = 2.0_wp
 
    !> Shape of one lobe
    type :: shape_t
@@ -136,7 +134,9 @@ contains
       character(len=:), allocatable, intent(inout) :: text
 
       character(len=*), parameter :: n = new_line("a")
-      character(len=:), allocatable :: speed
+      character(len=:), allocatable :: speed, words
+      ! By which factor bearings are too wide or too narrow for their law [-]
+      real(wp) :: excess
 
       text = text//"oil at "//number_text(case%operating_point%oil_temperature - 273.15_wp, 4)//" degC: "// &
          & number_text(1.0e3_wp*model%oil%viscosity, digits)//" mPa s, pressure-viscosity coefficient "// &
@@ -153,10 +153,8 @@ contains
       if (.not. allocated(case%cam_bearings)) return
       text = text//"camshaft bearings: width over diameter "// &
          & number_text(case%cam_bearings%width/case%cam_bearings%diameter, digits)//", law '"//trim(case%cam_bearings%law)//"'"
-      if (case%cam_bearings%law == journal_law_names(1) .and. case%cam_bearings%width < long_ratio*case%cam_bearings%diameter) then
-         text = text//", which is for bearings wider than "//number_text(long_ratio)//" diameters; '"// &
-            & trim(journal_law_names(3))//"' covers 0.1 to 1"
-      end if
+      call compare_width(case%cam_bearings%law, case%cam_bearings%width, case%cam_bearings%diameter, excess, words)
+      if (excess > 0.0_wp) text = text//", which "//words
       text = text//n
    end subroutine describe_oil
 

@@ -19,7 +19,7 @@ module camroller_camshaft_statistics
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_part_series, only : bearing_count, bearing_series_count, load_part
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_shaft, only : shaft_stops, solved_t, shaft_torques
+   use camroller_shaft, only : bearing_number, shaft_stops, solved_t, shaft_torques
    use camroller_slip_errors, only : error_at, state_without
    use camroller_sorting, only : find_order
    use camroller_state, only : state_t
@@ -42,6 +42,8 @@ module camroller_camshaft_statistics
       !> Those of them that are of single bearings, the last ones
       integer :: of_bearings = 0
       logical :: keeps_rows = .true.
+      !> Smallest film of the bearings at the angles evaluated [m]
+      real(wp) :: thinnest = huge(1.0_wp)
    contains
       procedure :: sample => sample_bearings
    end type bearing_samples_t
@@ -65,7 +67,7 @@ contains
 
    !> Mean torque of the bearings of each camshaft, and means of the series of single bearings, over panels that end at the stops
    !> of every cam.
-   subroutine mean_bearing_torque(solved, series, single, mean, mean_error, worst, rows, error)
+   subroutine mean_bearing_torque(solved, series, single, mean, mean_error, worst, rows, thinnest, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout), target :: solved
       !> All series of the case
@@ -80,6 +82,8 @@ contains
       character(len=*), intent(out) :: worst
       !> Series of the camshaft at the angles evaluated
       type(samples_t), intent(out) :: rows
+      !> Smallest film of the bearings at these angles, huge where there are none [m]
+      real(wp), intent(out) :: thinnest
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
@@ -112,6 +116,7 @@ contains
       end do
       ! Not those of halved panels: what bearings ask for changes nothing but their own torque
       call move_samples(samples%rows, rows)
+      thinnest = samples%thinnest
       samples%keeps_rows = .false.
       halvings = most_halvings
       allowed = max(quadrature_part*mean_tolerance(maxval(solved%cycles%tolerance))*sum(panels%sizes(:, :panels%count), 2), &
@@ -152,9 +157,10 @@ contains
       real(wp) :: series(self%series)
       type(bearing_state_t), allocatable :: bearings(:, :)
 
-      if (self%of_bearings > 0) allocate (bearings(bearing_count(self%solved%case), self%solved%shaft%count))
+      if (bearing_number(self%solved%shaft) > 0) allocate (bearings(bearing_number(self%solved%shaft), self%solved%shaft%count))
       call shaft_torques(self%solved, x, torques, error, bearings=bearings)
       if (allocated(error)) return
+      if (allocated(bearings)) self%thinnest = min(self%thinnest, minval(bearings%film))
       values(:size(torques, 2)) = torques(of_bearings, :)
       if (self%of_bearings == 0 .and. .not. self%keeps_rows) return
       call camshaft_values(self%solved%case, torques, series, bearings, self%solved%shaft%has_torque)

@@ -3,6 +3,7 @@
 !>
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
+   use camroller_bearing_asperity, only : thinnest_film
    use camroller_cam_angle, only : append_cam_angle, cam_angle_text, file_angle
    use camroller_kinds, only : wp
    use camroller_engine, only : write_speed
@@ -31,8 +32,6 @@ module camroller_cycle_remarks
    !> Film over the equivalent radius beyond which formulas for films say nothing: they hold for gaps that are small against the
    !> radius, with errors of the order of this ratio [-]
    real(wp), parameter :: thickest_film = 0.01_wp
-   !> Film over roughness of a pin below which the law of smooth surfaces lets the film carry what asperities would [-]
-   real(wp), parameter :: thinnest_film = 0.5_wp
    !> Pressure over hardness at which a line contact yields below its surface: 1.8 yield stresses, of which hardness is about three
    !> (Johnson 1985, sections 4.5 and 6.3) [-]; contact stress that the static load rating of roller bearings allows (ISO 76:2006)
    !> [Pa]

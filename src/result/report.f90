@@ -5,6 +5,7 @@ module camroller_report
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
+   use camroller_bearing_remarks, only : judge_bearings
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_contact_forces, only : contact_t
@@ -168,9 +169,10 @@ contains
       type(solved_t), target :: solved
       type(extremes_t) :: extremes
       type(samples_t) :: torque_rows
-      ! Mean torque of the bearings of each camshaft [N m], means of series of single bearings [unit of each]; their error [-]
+      ! Mean torque of the bearings of each camshaft [N m], means of series of single bearings [unit of each]
       real(wp), allocatable :: bearing_torque(:), of_bearings(:)
-      real(wp) :: bearing_error
+      ! Error of both [-], smallest film of the bearings [m]
+      real(wp) :: bearing_error, thinnest
       ! Name of the series that this is the error of
       character(len=name_length) :: worst
       integer :: lobe
@@ -197,7 +199,9 @@ contains
          if (allocated(error)) return
       end do
       allocate (bearing_torque(solved%shaft%count), of_bearings(bearing_series_count(case)))
-      call mean_bearing_torque(solved, result%series, of_bearings, bearing_torque, bearing_error, worst, torque_rows, error)
+      call mean_bearing_torque(solved, result%series, of_bearings, bearing_torque, bearing_error, worst, torque_rows, thinnest, &
+         & error)
+      if (.not. allocated(error)) call judge_bearings(solved, thinnest, result%remarks, error)
       if (allocated(error)) return
       if (allocated(cycles(1)%flexible) .and. .not. allocated(case%cam_bearings)) torque_rows = statistics(1)%torque_rows
       if (bearing_error > maxval(statistics%mean_error)) then

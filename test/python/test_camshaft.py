@@ -205,3 +205,34 @@ def test_side_of_the_followers_changes_the_bearing_torque(alone):
     data = SHAFTS["followers at two angles on one span"]
     change = put_together(rotation, followers, data) - put_together(rotation, followers, data, sign=-1)
     assert numpy.max(numpy.abs(change)) > 1e-3 * numpy.mean(put_together(rotation, followers, data))
+
+
+@pytest.mark.parametrize(("law", "width", "words"), [
+    ("long_full_sommerfeld", 24, "knows the oil that leaves at the sides of bearings up to 1 diameter wide"),
+    ("long_full_sommerfeld", 23, None), ("short_ocvirk", 24, None), ("finite", 24, "covers widths from 0.1 to 1 diameter"),
+])
+def test_heat_of_a_bearing_is_refused_where_its_side_flow_is_not_known(camroller, law, width, words):
+    """One complaint and no more: the law of finite width has its own."""
+    done = subprocess.run([camroller, "check", "decks/warm_bearings.nml", "--no-sweep", "--set", f"cam_bearings.law={law}", "--set",
+                           f"cam_bearings.width_mm={width}"], capture_output=True, text=True, cwd=ROOT, check=False)
+    if words is None:
+        assert done.returncode == 0, done.stderr
+    else:
+        assert done.returncode == 3 and words in done.stderr and done.stderr.count("diameter") == 1, done.stderr
+
+
+def test_a_remark_names_bearing_and_camshaft_of_a_thin_film(camroller, tmp_path):
+    values = ("lubricant.viscosity_at_40_degC_mm2_s=8", "lubricant.viscosity_at_100_degC_mm2_s=2", "cam_bearings.bearing_series=.true.",
+              "operating_point.speed_rpm=600", "output.angle_step_deg=0.5")
+    done = subprocess.run([camroller, "run", "decks/four_cylinder.nml", "--no-sweep", "-o", tmp_path / "a.h5",
+                           *(word for value in values for word in ("--set", value))], capture_output=True, text=True, cwd=ROOT, check=True)
+    found = re.search(r"the film of bearing (\d) of camshaft (\d) goes down to ([\d.]+) um, below 0.5 for ([\d.]+) % of the turn", done.stderr)
+    assert found, done.stderr
+    with h5py.File(tmp_path / "a.h5") as file:
+        films = {name: file["series"][name][0] for name in file["series"] if name.endswith("film_min") and "bearing" in name}
+    named = films[f"camshaft_{found[2]}_bearing_{found[1]}_film_min"]
+    # bearings that stand alike have the same film but for rounding
+    assert named.min() == pytest.approx(min(film.min() for film in films.values()), rel=1e-6)
+    # two digits are printed
+    assert float(found[3]) == pytest.approx(1e6 * named.min(), rel=0.06)
+    assert float(found[4]) == pytest.approx(100 * (named < 0.5e-6).mean(), rel=0.06)

@@ -1,0 +1,175 @@
+!> Remarks on the bearings of a camshaft: widths that their law is not for, films too thin for it, orbits beyond its fit.
+!>
+!> In: a solved case, the smallest film of each bearing at some angles. Out: remarks, one line of each kind.
+module camroller_bearing_remarks
+   use camroller_kinds, only : wp, two_pi
+   use camroller_bearing_asperity, only : bearing_state_t, thinnest_film
+   use camroller_error, only : error_t
+   use camroller_journal, only : cam_bearings_t, moves_like_finite
+   use camroller_journal_motion, only : largest_fitted
+   use camroller_journal_range, only : compare_width
+   use camroller_number_text, only : counted, integer_text, number_text
+   use camroller_remarks, only : remark_t, add_remark, bearing_width, orbit_out_of_range, rubbing_bearing
+   use camroller_shaft, only : bearing_number, has_orbits, shaft_torques, solved_t
+   use camroller_torque_list, only : torque_count
+   implicit none
+   private
+
+   public :: judge_bearings
+
+   !> Film below which usual surfaces touch: the roughness of a ground journal, 0.2 um, and of a bored bearing, 0.4 um, together [m]
+   real(wp), parameter :: usual_roughness = 0.5e-6_wp
+   !> Films are looked at closely from so far above a limit on: the angles of the means lie up to three degrees apart [-]
+   real(wp), parameter :: near = 1.25_wp
+   !> Angles of the close look
+   integer, parameter :: angles = 720
+
+   !> Films of all bearings below a limit
+   type :: thin_films_t
+      !> The limit, zero where there is none, and the smallest film [m]
+      real(wp) :: limit = 0.0_wp, smallest = huge(1.0_wp)
+      !> Part of the turn for which the bearing with the smallest film is below the limit [-]
+      real(wp) :: share = 0.0_wp
+      !> That bearing, in words, and how many others are below as well
+      character(len=:), allocatable :: bearing
+      integer :: others = 0
+   end type thin_films_t
+
+contains
+
+   !> Remarks on all bearings of a case.
+   subroutine judge_bearings(solved, thinnest, remarks, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
+      !> Smallest film of the bearings at the angles of the means [m]
+      real(wp), intent(in) :: thinnest
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! For smooth surfaces, for the fit of orbits
+      type(thin_films_t) :: films(2)
+
+      if (.not. allocated(solved%case%cam_bearings)) return
+      associate (bearings => solved%case%cam_bearings, shaft => solved%shaft)
+         call judge_width(bearings, remarks)
+         films(1)%limit = usual_roughness
+         if (allocated(shaft%touch)) films(1)%limit = thinnest_film*shaft%touch%roughness
+         if (has_orbits(solved%case) .and. moves_like_finite(shaft%journal)) films(2)%limit = (1.0_wp - largest_fitted) &
+            & *bearings%radial_clearance
+         if (.not. thinnest < near*maxval(films%limit)) return
+         call look_closely(solved, films, error)
+         if (allocated(error)) return
+         if (films(1)%smallest < films(1)%limit) call add_rubbing(films(1), allocated(shaft%touch), remarks)
+         if (films(2)%smallest < films(2)%limit) call add_remark(remarks, orbit_out_of_range, "the orbit of the journal in "// &
+            & films(2)%bearing//" goes to an eccentricity of "//number_text(1.0_wp - films(2)%smallest/bearings%radial_clearance, &
+            & 4)//", beyond "//number_text(largest_fitted, 2)//" for "//number_text(100.0_wp*films(2)%share, 2)// &
+            & " % of the turn; its velocities are a fit of numerical solutions up to there"//others_in_words(films(2)), &
+            & films(2)%limit/films(2)%smallest)
+      end associate
+   end subroutine judge_bearings
+
+   !> Say that bearings have a width that their law is not for.
+   subroutine judge_width(bearings, remarks)
+      !> The bearings
+      type(cam_bearings_t), intent(in) :: bearings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=:), allocatable :: words
+      ! By which factor [-]
+      real(wp) :: excess
+
+      call compare_width(bearings%law, bearings%width, bearings%diameter, excess, words)
+      if (excess > 0.0_wp) call add_remark(remarks, bearing_width, "cam_bearings.law '"//trim(bearings%law)//"' "//words// &
+         & "; these have "//number_text(bearings%width/bearings%diameter, 3), excess)
+   end subroutine judge_width
+
+   !> Say that a film is too thin for smooth surfaces.
+   subroutine add_rubbing(films, has_asperities, remarks)
+      !> The films
+      type(thin_films_t), intent(in) :: films
+      !> Do asperities share the load?
+      logical, intent(in) :: has_asperities
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=:), allocatable :: unit, consequence
+      ! What films are stated in [m]
+      real(wp) :: scale
+
+      if (has_asperities) then
+         scale = films%limit/thinnest_film
+         unit = " of the roughness"
+         consequence = "; there the law for smooth surfaces leaves the film load that asperities would carry, and the friction "// &
+            & "stated is too small"
+      else
+         scale = 1.0e-6_wp
+         unit = " um"
+         consequence = "; usual surfaces touch there, which &bearing_asperity would count"
+      end if
+      call add_remark(remarks, rubbing_bearing, "the film of "//films%bearing//" goes down to "// &
+         & number_text(films%smallest/scale, 2)//unit//", below "//number_text(films%limit/scale, 2)//" for "// &
+         & number_text(100.0_wp*films%share, 2)//" % of the turn"//consequence//others_in_words(films), films%limit/films%smallest)
+   end subroutine add_rubbing
+
+   !> Which films are below limits, and for how long.
+   subroutine look_closely(solved, films, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
+      !> In: with limits; out: with what is below them
+      type(thin_films_t), intent(inout) :: films(:)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bearing_state_t) :: states(bearing_number(solved%shaft), solved%shaft%count)
+      ! Torques of each camshaft [N m]; smallest films [m]
+      real(wp) :: torques(torque_count, solved%shaft%count), smallest(size(states, 1), size(states, 2))
+      ! Angles below each limit
+      integer :: below(size(states, 1), size(states, 2), size(films))
+      integer :: i, k, worst(2)
+
+      smallest = huge(1.0_wp)
+      below = 0
+      do i = 1, angles
+         call shaft_torques(solved, two_pi*i/angles, torques, error, bearings=states)
+         if (allocated(error)) return
+         smallest = min(smallest, states%film)
+         do k = 1, size(films)
+            where (states%film < films(k)%limit) below(:, :, k) = below(:, :, k) + 1
+         end do
+      end do
+      worst = minloc(smallest)
+      films%smallest = smallest(worst(1), worst(2))
+      do k = 1, size(films)
+         films(k)%share = real(below(worst(1), worst(2), k), wp)/angles
+         films(k)%others = count(below(:, :, k) > 0) - 1
+         films(k)%bearing = "camshaft bearing "//integer_text(worst(1))
+         if (solved%shaft%count > 1) films(k)%bearing = "bearing "//integer_text(worst(1))//" of camshaft "//integer_text(worst(2))
+      end do
+   end subroutine look_closely
+
+   !> Length of the words on others.
+   pure function others_length(films) result(length)
+      !> The films
+      type(thin_films_t), intent(in) :: films
+      !> The length
+      integer :: length
+
+      length = 0
+      if (films%others > 0) length = 2 + len(counted(films%others, "other bearing")) + len(" too")
+   end function others_length
+
+   !> Words on other bearings that are below a limit as well.
+   pure function others_in_words(films) result(words)
+      !> The films
+      type(thin_films_t), intent(in) :: films
+      !> The words, to follow others
+      character(len=others_length(films)) :: words
+
+      words = ""
+      if (films%others > 0) words = "; "//counted(films%others, "other bearing")//" too"
+   end function others_in_words
+
+end module camroller_bearing_remarks
