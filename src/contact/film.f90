@@ -21,7 +21,7 @@ module camroller_film
 
    public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names
    public :: film_shape, new_film_line, film_at_load, log_films_at_load, is_in_range, takes_whole_load, published_range, &
-      & asperity_part
+      & asperity_part, group_count, group_values, warm_speed, speed_by_factor
    public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes, law_table
 
    !> Film-thickness laws
@@ -43,6 +43,8 @@ module camroller_film
       character(len=name_length) :: range_policy = "warn"
    end type film_t
 
+   !> How many groups a contact has
+   integer, parameter :: group_count = 5
    !> Dimensionless groups of a line contact
    type :: groups_t
       !> Speed, U [-]
@@ -79,7 +81,7 @@ module camroller_film
       type(groups_t) :: groups
       !> Power laws: logarithm of the minimum and the central film at unit load [-]
       real(wp) :: unit_logs(2)
-      !> ln of a factor on both films: heat in the inlet [-]
+      !> ln of a factor on both films: heat in the inlet; the rough regression takes it as less speed [-]
       real(wp) :: log_factor = 0.0_wp
       !> Table: films over the load
       type(film_series_t) :: series
@@ -107,15 +109,25 @@ module camroller_film
    !> solution at U 1e-11, W* 1e-4, G 4500 in Masjedi and Khonsari (2012); ours, since Moes gives no minimum [-]
    real(wp), parameter :: moes_elastic_dip = 0.124_wp
 
-   !> Published ranges of U, G and W*, lower and upper, one column a law [-]. Dowson and Higginson solved 1e-13 < U < 1e-10,
-   !> 2500 < G < 5000, 1.5e-5 < W* < 3e-4; Pan and Hamrock as they are commonly quoted, not compared with the paper; Masjedi and
-   !> Khonsari as in their abstract; Moes' formula has the four asymptotes as its limits and so no outer range.
-   real(wp), parameter :: ranges(2, 3, 5) = reshape([ &
-      1.0e-13_wp, 1.0e-10_wp, 2.5e3_wp, 5.0e3_wp, 1.5e-5_wp, 3.0e-4_wp, &
-      1.0e-13_wp, 1.0e-8_wp, 2.0e3_wp, 1.0e4_wp, 2.0e-5_wp, 5.0e-4_wp, &
-      1.0e-12_wp, 1.0e-10_wp, 2.5e3_wp, 7.5e3_wp, 2.0e-5_wp, 5.0e-4_wp, &
-      1.0e-12_wp, 1.0e-10_wp, 2.5e3_wp, 7.5e3_wp, 2.0e-5_wp, 5.0e-4_wp, &
-      0.0_wp, huge(1.0_wp), 0.0_wp, huge(1.0_wp), 0.0_wp, huge(1.0_wp)], [2, 3, 5])
+   !> No bound [-]
+   real(wp), parameter :: open_end = huge(1.0_wp)
+   !> Ranges of roughness and hardness of a law that takes neither, lower and upper [-]
+   real(wp), parameter :: smooth(4) = [0.0_wp, open_end, 0.0_wp, open_end]
+   !> Published ranges of U, G, W*, sigma/R and hardness/E', lower and upper, one row a law [-]. Dowson and Higginson solved 1e-13 <
+   !> U < 1e-10, 2500 < G < 5000, 1.5e-5 < W* < 3e-4; Pan and Hamrock, and Masjedi and Khonsari in the first three, as they are
+   !> commonly quoted, not compared with the papers; the last two are those of Masjedi and Khonsari's table of solutions; Moes'
+   !> formula has the four asymptotes as its limits and so no outer range.
+   real(wp), parameter :: ranges(2, group_count, 5) = reshape([ &
+      1.0e-13_wp, 1.0e-10_wp, 2.5e3_wp, 5.0e3_wp, 1.5e-5_wp, 3.0e-4_wp, smooth, &
+      1.0e-13_wp, 1.0e-8_wp, 2.0e3_wp, 1.0e4_wp, 2.0e-5_wp, 5.0e-4_wp, smooth, &
+      1.0e-12_wp, 1.0e-10_wp, 2.5e3_wp, 7.5e3_wp, 2.0e-5_wp, 5.0e-4_wp, smooth, &
+      1.0e-12_wp, 1.0e-10_wp, 2.5e3_wp, 7.5e3_wp, 2.0e-5_wp, 5.0e-4_wp, 0.0_wp, 4.0e-5_wp, 5.0e-3_wp, 3.0e-2_wp, &
+      0.0_wp, open_end, 0.0_wp, open_end, 0.0_wp, open_end, smooth], [2, group_count, 5])
+   !> Least U for which the roughness factors were published; at less they stay as they are there [-]
+   real(wp), parameter :: least_rough_speed = ranges(1, 1, law_masjedi_khonsari_rough)
+   !> Change of ln U in a rough contact with ln of a factor on films by heat in the inlet: that of an oil with which the smooth
+   !> minimum film is as much thinner [-]
+   real(wp), parameter :: speed_by_factor = 1.0_wp/power_laws(2, 1, law_masjedi_khonsari)
 
 contains
 
@@ -183,12 +195,24 @@ contains
       else
          groups = line%groups
          groups%load = load
+         if (takes_whole_load(line%law)) groups%speed = warm_speed(line)
          call film_shape(line%law, groups, shape)
       end if
-      if (line%is_power .or. .not. abs(line%log_factor) > 0.0_wp) return
+      if (line%is_power .or. takes_whole_load(line%law) .or. .not. abs(line%log_factor) > 0.0_wp) return
       shape%minimum = shape%minimum*exp(line%log_factor)
       shape%central = shape%central*exp(line%log_factor)
    end subroutine film_at_load
+
+   !> U of a rough contact with the oil of a warm inlet: films and what asperities carry are those at this speed.
+   elemental function warm_speed(line) result(speed)
+      !> Film over the load, of a rough contact
+      type(film_line_t), intent(in) :: line
+      !> U [-]
+      real(wp) :: speed
+
+      speed = line%groups%speed
+      if (abs(line%log_factor) > 0.0_wp) speed = speed*exp(speed_by_factor*line%log_factor)
+   end function warm_speed
 
    !> Logarithms of both films at a load that the film carries, and the slopes; the films themselves are left to the caller.
    pure subroutine log_films_at_load(line, load, logs, shape)
@@ -231,23 +255,33 @@ contains
       !> True inside
       logical :: inside
 
-      ! The three groups [-]
-      real(wp) :: values(3)
+      ! The groups [-]
+      real(wp) :: values(group_count)
 
       if (present(table)) then
          inside = is_in_table(table, groups%speed, groups%load)
          return
       end if
-      values = [groups%speed, groups%material, groups%load]
+      values = group_values(groups)
       inside = all(values >= ranges(1, :, law) .and. values <= ranges(2, :, law))
    end function is_in_range
 
-   !> Bounds of the groups U, G and W* for which a law was published.
+   !> The groups in the order of their ranges: U, G, W*, sigma/R, hardness/E'.
+   pure function group_values(groups) result(values)
+      !> The groups
+      type(groups_t), intent(in) :: groups
+      !> Their values [-]
+      real(wp) :: values(group_count)
+
+      values = [groups%speed, groups%material, groups%load, groups%roughness, groups%hardness]
+   end function group_values
+
+   !> Bounds of the groups for which a law was published.
    pure function published_range(law) result(bounds)
       !> Position in `film_law_names`
       integer, intent(in) :: law
       !> Smallest and largest of each [-]
-      real(wp) :: bounds(2, 3)
+      real(wp) :: bounds(2, group_count)
 
       bounds = ranges(:, :, law)
    end function published_range
@@ -309,29 +343,34 @@ contains
    end subroutine power_slopes
 
    !> Multiply both films by the roughness factors of Masjedi and Khonsari.
+   !>
+   !> The factors grow as the speed falls, and faster than the smooth film falls where they are large. Below the least published
+   !> speed they are those of that speed, so that the film falls with the speed and goes to zero.
    pure subroutine roughen(groups, shape)
       !> Dimensionless groups
       type(groups_t), intent(in) :: groups
       !> In: smooth film; out: rough film
       type(film_shape_t), intent(inout) :: shape
 
-      ! Rise of minimum and central film by roughness [-]
-      real(wp) :: rise(2)
+      ! Rise of minimum and central film by roughness; U that it is taken at [-]
+      real(wp) :: rise(2), speed
       integer :: i
 
+      speed = max(groups%speed, least_rough_speed)
       do i = 1, 2
          rise(i) = rough_factors(1, i)*groups%roughness**rough_factors(2, i)*groups%hardness**rough_factors(3, i) &
-            & *groups%load**rough_factors(4, i)*groups%speed**rough_factors(5, i)*groups%material**rough_factors(6, i)
+            & *groups%load**rough_factors(4, i)*speed**rough_factors(5, i)*groups%material**rough_factors(6, i)
       end do
       shape%minimum = shape%minimum*(1.0_wp + rise(1))
       shape%central = shape%central*(1.0_wp + rise(2))
       rise = rise/(1.0_wp + rise)
       shape%minimum_load_slope = shape%minimum_load_slope + rise(1)*rough_factors(4, 1)
       shape%central_load_slope = shape%central_load_slope + rise(2)*rough_factors(4, 2)
-      shape%minimum_speed_slope = shape%minimum_speed_slope + rise(1)*rough_factors(5, 1)
-      shape%central_speed_slope = shape%central_speed_slope + rise(2)*rough_factors(5, 2)
       shape%minimum_roughness_slope = rise(1)*rough_factors(2, 1)
       shape%central_roughness_slope = rise(2)*rough_factors(2, 2)
+      if (groups%speed < least_rough_speed) return
+      shape%minimum_speed_slope = shape%minimum_speed_slope + rise(1)*rough_factors(5, 1)
+      shape%central_speed_slope = shape%central_speed_slope + rise(2)*rough_factors(5, 2)
    end subroutine roughen
 
    !> Part of the load that asperities carry by the regression of Masjedi and Khonsari (2012), with its logarithmic slopes.

@@ -4,7 +4,8 @@
 !> In: the dimensionless groups at points of a cycle. Out: shares, and a sentence.
 module camroller_film_range
    use camroller_kinds, only : wp
-   use camroller_film, only : film_law_names, groups_t, law_masjedi_khonsari_rough, law_table, published_range
+   use camroller_film, only : film_law_names, group_count, group_values, groups_t, law_masjedi_khonsari_rough, law_table, &
+      & published_range
    use camroller_number_text, only : append_number
    implicit none
    private
@@ -13,8 +14,8 @@ module camroller_film_range
 
    !> Part of the friction loss that a film outside of its law's range may have on the base circle without a word [-]
    real(wp), parameter :: small_part = 0.01_wp
-   !> Names of the groups
-   character(len=*), parameter :: group_names(3) = [character(len=2) :: "U", "G", "W*"]
+   !> Names of the groups; sigma is the composite roughness
+   character(len=*), parameter :: group_names(group_count) = [character(len=11) :: "U", "G", "W*", "sigma/R", "hardness/E'"]
 
    !> Points outside of a range
    type :: film_range_t
@@ -23,7 +24,7 @@ module camroller_film_range
       !> Sums of the friction torque, each weighted with its part of the cycle: outside, and all [N m]
       real(wp) :: outside_loss = 0.0_wp, loss = 0.0_wp
       !> Smallest and largest of each group outside [-]
-      real(wp) :: smallest(3) = huge(1.0_wp), largest(3) = 0.0_wp
+      real(wp) :: smallest(group_count) = huge(1.0_wp), largest(group_count) = 0.0_wp
    end type film_range_t
 
 contains
@@ -46,8 +47,8 @@ contains
       range%share = range%share + weight
       if (in_event) range%event_share = range%event_share + weight
       range%outside_loss = range%outside_loss + weight*abs(loss)
-      range%smallest = min(range%smallest, [groups%speed, groups%material, groups%load])
-      range%largest = max(range%largest, [groups%speed, groups%material, groups%load])
+      range%smallest = min(range%smallest, group_values(groups))
+      range%largest = max(range%largest, group_values(groups))
    end subroutine note_film
 
    !> Is a word due? Not where the film of the base circle alone is outside and next to no loss arises there.
@@ -70,7 +71,7 @@ contains
       character(len=:), allocatable, intent(out) :: words
 
       ! Published bounds of the groups [-]
-      real(wp) :: bounds(2, 3)
+      real(wp) :: bounds(2, group_count)
       character(len=:), allocatable :: covering
       integer :: i, other
 
@@ -82,7 +83,7 @@ contains
       words = words//" % of the follower's friction arises"
       if (law == law_table) return
       bounds = published_range(law)
-      do i = 1, 3
+      do i = 1, group_count
          if (range%smallest(i) < bounds(1, i)) then
             words = words//"; "//trim(group_names(i))//" down to "
             call append_number(words, range%smallest(i), 3)

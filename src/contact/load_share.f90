@@ -6,7 +6,8 @@
 !> root tends to the dry gap, `w_a(h_dry) = W*`, or to zero where the asperities alone cannot carry the load.
 module camroller_load_share
    use camroller_kinds, only : wp
-   use camroller_film, only : film_line_t, film_shape_t, film_at_load, log_films_at_load, takes_whole_load, asperity_part, groups_t
+   use camroller_film, only : film_line_t, film_shape_t, film_at_load, log_films_at_load, takes_whole_load, asperity_part, &
+      & groups_t, warm_speed, speed_by_factor
    use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function, &
       & law_masjedi_khonsari
    implicit none
@@ -141,6 +142,7 @@ contains
       call film_alone(shape, load, share)
       groups = line%groups
       groups%load = load
+      groups%speed = warm_speed(line)
       call asperity_part(groups, part, share%by_groups(1), share%by_groups(2), share%by_groups(3))
       share%has_asperities = .true.
       share%is_regressed = .true.
@@ -250,7 +252,7 @@ contains
    !> How the share follows changes of load over radius, speed and radius; the apparent area is that of a line contact.
    !>
    !> With q = d ln(W/R), u = d ln U and r = d ln R, load groups follow q, the area over E' R L follows q/2 and the roughness
-   !> over the radius -r; `h = f h(W* - w_a(h))` is differentiated as it stands.
+   !> over the radius -r; `h = f h(W* - w_a(h))` is differentiated as it stands. A law of the whole load has f as a change of U.
    pure function share_change(line, load, share, q, u, r, f) result(change)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
@@ -267,14 +269,18 @@ contains
 
       ! Changes of minimum and central film over radius that speed and roughness make at constant load, and of the film ratio [-]
       real(wp) :: own, own_central, film_ratio
-      ! Denominator of the slope of the film ratio [-]
-      real(wp) :: give
+      ! Denominator of the slope of the film ratio; change of ln U with that by heat in the inlet [-]
+      real(wp) :: give, speed
 
+      speed = u
+      if (present(f) .and. takes_whole_load(line%law)) speed = u + speed_by_factor*f
       associate (shape => share%shape)
-         own = shape%minimum_speed_slope*u - shape%minimum_roughness_slope*r
-         own_central = shape%central_speed_slope*u - shape%central_roughness_slope*r
-         if (present(f)) own = own + f
-         if (present(f)) own_central = own_central + f
+         own = shape%minimum_speed_slope*speed - shape%minimum_roughness_slope*r
+         own_central = shape%central_speed_slope*speed - shape%central_roughness_slope*r
+         if (present(f) .and. .not. takes_whole_load(line%law)) then
+            own = own + f
+            own_central = own_central + f
+         end if
          change%film_load = q
          if (.not. share%has_asperities .or. takes_whole_load(line%law)) then
             film_ratio = own + shape%minimum_load_slope*q + r
@@ -290,7 +296,7 @@ contains
          change%film_min = film_ratio - r
          change%asperity_load = 0.5_wp*share%asperity_load*q + share%stiffness*film_ratio
          if (share%is_regressed) change%asperity_load = share%asperity_load*((1.0_wp + share%by_groups(1))*q &
-            & + share%by_groups(2)*u - share%by_groups(3)*r)
+            & + share%by_groups(2)*speed - share%by_groups(3)*r)
          change%real_area_ratio = share%area_stiffness*film_ratio
          change%film_central = own_central + shape%central_load_slope*change%film_load
       end associate

@@ -23,6 +23,7 @@ contains
          new_unittest("power laws have their exponents", test_exponents), &
          new_unittest("Dowson and Higginson's film of a worked example", test_example), &
          new_unittest("roughness thickens the film and vanishes with the roughness", test_rough), &
+         new_unittest("below the least published speed a rough film falls as the smooth one does", test_rough_slow), &
          new_unittest("Moes: rigid and isoviscous it is 3/M", test_moes_rigid), &
          new_unittest("Moes: elastic and isoviscous it is 2.621 M^(-1/5)", test_moes_elastic), &
          new_unittest("Moes: rigid and piezoviscous it is 1.287 L^(2/3)", test_moes_rigid_piezo), &
@@ -104,6 +105,31 @@ contains
       if (allocated(error)) return
       call check(error, rough%minimum, smooth%minimum, thr=roundings, rel=.true.)
    end subroutine test_rough
+
+   !> Roughness so large that its factors alone would thicken a slower film.
+   subroutine test_rough_slow(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(film_shape_t) :: smooth, rough
+      ! Speeds, the second the least that is published; factor of each film by roughness [-]
+      real(wp), parameter :: speeds(4) = [1.01e-12_wp, 1.0e-12_wp, 1.0e-13_wp, 1.0e-30_wp]
+      real(wp) :: factors(2, 4), faster
+      integer :: i
+
+      do i = 1, 4
+         call film_shape(law_masjedi_khonsari, groups_t(speeds(i), 4500.0_wp, 1.0e-4_wp, 2.0e-4_wp, 0.02_wp), smooth)
+         faster = rough%minimum
+         call film_shape(law_masjedi_khonsari_rough, groups_t(speeds(i), 4500.0_wp, 1.0e-4_wp, 2.0e-4_wp, 0.02_wp), rough)
+         factors(:, i) = [rough%minimum/smooth%minimum, rough%central/smooth%central]
+         if (i > 2) call check(error, rough%minimum < 0.2_wp*faster, "a slower film is no thinner")
+         if (allocated(error)) return
+      end do
+      call check(error, all(factors(:, 1) < factors(:, 2)) .and. all(factors(:, 1) > 0.99_wp*factors(:, 2)), "a step in the film")
+      if (allocated(error)) return
+      do i = 3, 4
+         call check(error, all(abs(factors(:, i)/factors(:, 2) - 1.0_wp) < roundings), "roughness grows at low speed")
+         if (allocated(error)) return
+      end do
+   end subroutine test_rough_slow
 
    !> Moes' central film in his own units: with U = 1/2, M is W*, L is G, and the film is H.
    function moes_film(m, l) result(film)
@@ -195,6 +221,15 @@ contains
          if (allocated(error)) return
          call check(error, is_in_range(law, groups_t(1.0e-14_wp, 4500.0_wp, 1.0e-4_wp, 2.0e-5_wp, 0.01_wp)) .eqv. law == law_moes, &
             "slow: "//trim(film_law_names(law)))
+         if (allocated(error)) return
+         call check(error, is_in_range(law, groups_t(1.0e-11_wp, 4500.0_wp, 1.0e-4_wp, 4.1e-5_wp, 0.01_wp)) .neqv. &
+            law == law_masjedi_khonsari_rough, "rough: "//trim(film_law_names(law)))
+         if (allocated(error)) return
+         call check(error, is_in_range(law, groups_t(1.0e-11_wp, 4500.0_wp, 1.0e-4_wp, 2.0e-5_wp, 0.031_wp)) .neqv. &
+            law == law_masjedi_khonsari_rough, "hard: "//trim(film_law_names(law)))
+         if (allocated(error)) return
+         call check(error, is_in_range(law, groups_t(1.0e-11_wp, 4500.0_wp, 1.0e-4_wp, 2.0e-5_wp, 0.0049_wp)) .neqv. &
+            law == law_masjedi_khonsari_rough, "soft: "//trim(film_law_names(law)))
          if (allocated(error)) return
       end do
    end subroutine test_ranges

@@ -2,10 +2,11 @@
 module test_load_share
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
-   use camroller_film, only : groups_t, film_shape_t, film_line_t, film_law_names, new_film_line, film_at_load, &
-      takes_whole_load, law_dowson_higginson, law_masjedi_khonsari_rough, law_moes
+   use camroller_film, only : groups_t, film_shape_t, film_line_t, film_law_names, film_shape, new_film_line, film_at_load, &
+      takes_whole_load, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
-      asperity_area_function, asperity_law_names, law_greenwood_tripp, law_zhao_maietta_chang
+      asperity_area_function, asperity_law_names, law_greenwood_tripp, law_zhao_maietta_chang, &
+      law_regression => law_masjedi_khonsari
    use camroller_load_share, only : share_t, share_change_t, share_load, share_change, improve_share
    implicit none
    private
@@ -34,6 +35,7 @@ contains
          new_unittest("a huge load leaves the asperities a vanishing part", test_huge_load), &
          new_unittest("more load: thinner film, more on the asperities", test_monotonic), &
          new_unittest("a film that carries no load has changes of the size of the load's rounding", test_idle_film), &
+         new_unittest("heat in the inlet of a rough contact acts as less speed, on film and share", test_warm_inlet), &
          new_unittest("one step from nearby is as good as the square of its change", test_improve) &
          ]
    end subroutine collect_load_share
@@ -315,6 +317,35 @@ contains
       ! Its logarithm times the film's load, at most the rounding of the load, is what forces follow
       call check(error, abs(change%film_load)*epsilon(load) <= 10.0_wp, "the change of an idle film has no bound")
    end subroutine test_idle_film
+
+   !> The speed is that with which the smooth minimum film is thinner by the factor.
+   subroutine test_warm_inlet(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(film_line_t) :: line, slow, smooth, slow_smooth
+      type(film_shape_t) :: thick, thin
+      type(asperity_constants_t) :: constants
+      type(share_t) :: cold, warm, slower
+      ! Load over E' R L, speed, factor of the inlet [-]; apparent area over E' R L [1/Pa]
+      real(wp), parameter :: load = 1.0e-4_wp, speed = 1.0e-11_wp, factor = 0.7_wp
+      real(wp) :: area
+
+      call make_contact(law_masjedi_khonsari_rough, speed, load, line, constants, area, law_regression)
+      call make_contact(law_masjedi_khonsari_rough, speed*factor**(1.0_wp/0.716_wp), load, slow, constants, area, law_regression)
+      call share_load(line, load, cold, constants, area)
+      line%log_factor = log(factor)
+      call share_load(line, load, warm, constants, area)
+      call share_load(slow, load, slower, constants, area)
+      call check(error, warm%film_min < cold%film_min .and. warm%asperity_load > 1.1_wp*cold%asperity_load, "heat is not seen")
+      if (allocated(error)) return
+      call check(error, all(abs([warm%film_min/slower%film_min, warm%film_central/slower%film_central, &
+         & warm%asperity_load/slower%asperity_load] - 1.0_wp) < roundings), "not the contact at that speed")
+      if (allocated(error)) return
+      call make_contact(law_masjedi_khonsari, speed, load, smooth, constants, area)
+      call make_contact(law_masjedi_khonsari, speed*factor**(1.0_wp/0.716_wp), load, slow_smooth, constants, area)
+      call film_at_load(smooth, load, thick)
+      call film_at_load(slow_smooth, load, thin)
+      call check(error, thin%minimum/thick%minimum, factor, thr=roundings, rel=.true.)
+   end subroutine test_warm_inlet
 
    subroutine test_improve(error)
       type(error_type), allocatable, intent(out) :: error

@@ -373,13 +373,15 @@ contains
       if (allocated(error)) return
       case%asperity%law = "masjedi_khonsari"
       case%film%law = "masjedi_khonsari_rough"
-      do i = 1, 3
-         call set_point(case, point_speeds(i), point_viscosities(i))
+      do i = 1, 5
+         if (i == 4) call add_heat(case)
+         call set_point(case, point_speeds(1 + mod(i, 3)), point_viscosities(1 + mod(i, 3)))
          call make_model(case, model, error)
          if (allocated(error)) return
-         call compare(error, model, "asperities by regression")
+         call compare(error, model, "asperities by regression"//merge(", heat", "      ", i > 3))
          if (allocated(error)) return
       end do
+      deallocate (case%heat)
       case%film%law = "dowson_higginson"
       deallocate (case%asperity, case%needle_bearing, case%valve_guide)
       call make_model(case, model, error)
