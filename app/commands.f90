@@ -12,6 +12,7 @@ module camroller_commands
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_help_pages, only : bash_completion, manual_page
    use camroller_console, only : add_number_remarks, tell_deck_remarks
+   use camroller_cycle_remarks, only : judge_laws
    use camroller_deck, only : deck_t, read_deck, make_case, make_sweep_case, add_places, drop_sweep, override_t
    use camroller_case_facts, only : describe_case
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
@@ -28,6 +29,7 @@ module camroller_commands
    use camroller_model, only : model_t
    use camroller_new_file, only : check_place, save_text
    use camroller_number_text, only : counted, integer_text
+   use camroller_remarks, only : remark_t
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
    use camroller_selftest, only : run_selftest
@@ -217,6 +219,7 @@ contains
       type(deck_t) :: deck
       type(case_t) :: case
       type(model_t), allocatable :: models(:)
+      type(remark_t), allocatable :: remarks(:)
       character(len=:), allocatable :: text
       integer :: i, checked, number
 
@@ -235,11 +238,13 @@ contains
          call add_places(deck, error)
          call add_number_remarks(deck, error)
          if (allocated(error)) return
+         if (.not. allocated(remarks)) call judge_laws(models(1), remarks)
       end do
       text = "! "//config%subject//" is valid: "//cases_in_words(deck)
       if (checked < sweep_size(deck%sweep)) text = text//", of which "//integer_text(checked)//" were checked"
       call print_lines(text, error)
       call tell_deck_remarks(deck)
+      if (allocated(remarks)) call tell("remark: "//remarks(1)%text//new_line("a"))
       text = ""
       if (size(deck%sweep%axes) > 0) call cost_in_words(deck, text)
       text = text//"! effects in the case: "//effects_in_words(deck, .true.)//new_line("a")// &

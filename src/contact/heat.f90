@@ -8,11 +8,12 @@ module camroller_heat
    use camroller_error, only : error_t, raise, add_context, kind_deck
    use camroller_names, only : name_length, find_name
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at, temperature_law_names, law_direct, law_roelands
-   use camroller_conjunction, only : hot_oil_t, body_t, band_t, new_band
+   use camroller_conjunction, only : hot_oil_t, body_t, band_t, new_band, warm_oil
    implicit none
    private
 
-   public :: heat_t, heat_part_t, inlet_law_names, contact_heat_names, new_heat_part, set_heat_oil, inlet_factor, is_inlet_in_range
+   public :: heat_t, heat_part_t, inlet_law_names, contact_heat_names, new_heat_part, set_heat_oil, inlet_factor, &
+      & is_inlet_in_range, hot_oil_range, compare_hot_oil
    public :: inlet_none, inlet_murch_wilson, inlet_gupta, contact_heat_none
 
    !> Factor on the film by heating of the inlet
@@ -63,6 +64,11 @@ module camroller_heat
 
    !> Step between the temperatures that Vogel's law goes through, from that of the oil around on [K]
    real(wp), parameter :: temperature_step = 15.0_wp
+   !> Relative error of viscosity or pressure-viscosity coefficient from which on the oil of a hot film is not that of the lubricant
+   !> [-]; distance of the rises at which both are compared, and to what the rise is found [K]
+   real(wp), parameter :: hot_oil_error = 0.01_wp, compared_step = 10.0_wp, compared_end = 0.25_wp
+   !> How many rises are compared: beyond them no oil is left
+   integer, parameter :: most_compared = 30
    !> Constants of Murch and Wilson: level and exponent of L [-]
    real(wp), parameter :: murch_level = 3.94_wp, murch_exponent = 0.62_wp
    !> Constants of Gupta and others: factor of the pressure and its exponent of L; factor of the load and its exponent of L; factor
@@ -116,7 +122,7 @@ contains
    !>
    !> Vogel's own law comes out exactly; Walther's is met to 0.04 % of the viscosity up to 30 K and to 0.8 % up
    !> to 60 K for an SAE 30 from 25 degC on. The pressure-viscosity coefficient falls as the
-   !> lubricant has it between the outer ones.
+   !> lubricant has it between the outer ones. `hot_oil_range` says how far this goes.
    subroutine set_heat_oil(part, lubricant, temperature, oil, error)
       !> Gets the oil
       type(heat_part_t), intent(inout) :: part
@@ -166,6 +172,67 @@ contains
       part%oil_expansion = lubricant%thermal_expansion*lubricant%density/density_at(lubricant, temperature)
       part%loading = part%hot%coefficient*oil%viscosity/part%oil_conductivity
    end subroutine set_heat_oil
+
+   !> Largest rise of the film's temperature with which its oil is that of the lubricant's own laws, to `hot_oil_error`.
+   function hot_oil_range(part, lubricant, oil) result(good)
+      !> Ready for this oil
+      type(heat_part_t), intent(in) :: part
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Oil at the temperature around
+      type(oil_t), intent(in) :: oil
+      !> The rise; huge where none is too large [K]
+      real(wp) :: good
+
+      ! Rise, step to it [K]; relative errors [-]
+      real(wp) :: rise, step, errors(2)
+      logical :: has_law
+
+      good = 0.0_wp
+      step = compared_step
+      do while (step > compared_end)
+         rise = good + step
+         call compare_hot_oil(part, lubricant, oil, rise, errors, has_law)
+         if (has_law .and. maxval(abs(errors)) <= hot_oil_error) then
+            good = rise
+            if (good >= most_compared*compared_step) exit
+         else
+            step = 0.5_wp*step
+         end if
+      end do
+      if (step > compared_end) good = huge(1.0_wp)
+   end function hot_oil_range
+
+   !> How far the oil of a film that is warmer than the oil around is from the lubricant's own law.
+   subroutine compare_hot_oil(part, lubricant, oil, rise, errors, has_law)
+      !> Ready for this oil
+      type(heat_part_t), intent(in) :: part
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Oil at the temperature around
+      type(oil_t), intent(in) :: oil
+      !> Rise of the film's temperature [K]
+      real(wp), intent(in) :: rise
+      !> Relative errors of the viscosity at ambient pressure and of the pressure-viscosity coefficient; the latter is zero with
+      !> Roelands' law, which has it from the viscosity [-]
+      real(wp), intent(out) :: errors(2)
+      !> Has the lubricant's law a value there?
+      logical, intent(out) :: has_law
+
+      type(oil_t) :: warm, own
+      type(error_t), allocatable :: failure
+      ! Change of ln(viscosity) [-], its slope [1/K]
+      real(wp) :: change, slope
+
+      errors = 0.0_wp
+      call get_oil(lubricant, part%temperature + rise, own, failure)
+      has_law = .not. allocated(failure)
+      if (.not. has_law) return
+      call warm_oil(part%hot, oil, rise, warm, change, slope)
+      ! A viscosity that is given holds at the oil's temperature alone
+      if (lubricant%temperature_law /= temperature_law_names(law_direct)) errors(1) = warm%viscosity/own%viscosity - 1.0_wp
+      if (oil%pressure_law /= law_roelands) errors(2) = warm%pressure_viscosity/own%pressure_viscosity - 1.0_wp
+   end subroutine compare_hot_oil
 
    !> Factor on the film by shear heating of the inlet, with its slopes: by `L = beta eta0 u^2/k_oil`, with Gupta and others by
    !> `S = V_s/u` and the pressure, too.

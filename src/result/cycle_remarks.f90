@@ -8,10 +8,13 @@ module camroller_cycle_remarks
    use camroller_kinds, only : wp
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t, raise, add_context, kind_domain
+   use camroller_asperity, only : law_greenwood_tripp
    use camroller_cycle, only : cycle_t
    use camroller_events, only : contact_losses
+   use camroller_film, only : law_masjedi_khonsari_rough
    use camroller_film_range, only : matters, range_in_words
    use camroller_flexible_report, only : judge_train
+   use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : margins_t
    use camroller_follower_samples, only : thinnest_film_allowed => thinnest_film
    use camroller_means, only : statistics_t
@@ -19,13 +22,13 @@ module camroller_cycle_remarks
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
    use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
-      & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rolling_out_of_range, rubbing_contact, &
-      & rubbing_pin, standing_entrainment, unloaded_end, unresolved_slip, yielding_surface
+      & foreign_asperities, hot_film, hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rolling_out_of_range, &
+      & rubbing_contact, rubbing_pin, standing_entrainment, unloaded_end, unresolved_slip, yielding_surface
    use camroller_result, only : find_quantity, lobe_scope, quantity_t
    implicit none
    private
 
-   public :: judge_lobe, judge_films, judge_pin, judge_pressure, judge_extremes
+   public :: judge_laws, judge_lobe, judge_films, judge_pin, judge_pressure, judge_extremes
 
    !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
@@ -40,6 +43,20 @@ module camroller_cycle_remarks
    integer, parameter :: most_intervals = 4
 
 contains
+
+   !> Say that laws of a case do not go together: a film that has asperities in its fit, and asperities of another law.
+   pure subroutine judge_laws(model, remarks)
+      !> Model of a lobe
+      type(model_t), intent(in) :: model
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      if (.not. allocated(model%boundary) .or. model%film_law /= law_masjedi_khonsari_rough) return
+      if (model%boundary%constants%law /= law_greenwood_tripp) return
+      call add_remark(remarks, foreign_asperities, "film.law 'masjedi_khonsari_rough' and asperity.law 'greenwood_tripp' do "// &
+         & "not go together: asperities that lift the film by as much carry 21 % of the load in a contact of the film's paper, "// &
+         & "and 1.4 % by this law; asperity.law = 'masjedi_khonsari' goes with the film")
+   end subroutine judge_laws
 
    !> Remarks on a lobe: contact, range of the film law, accuracy.
    subroutine judge_lobe(model, cycle, statistics, margins, lobe, remarks, error)
@@ -317,6 +334,7 @@ contains
       if (statistics%inlet_share > 0.0_wp) call add_remark(remarks, hot_inlet, "heat in the inlet is beyond what the factor of "// &
          & "Gupta and others can tell for "//number_text(100.0_wp*statistics%inlet_share, 3)//" % of the cycle: the pressure's "// &
          & "part alone would halve the film; a continuation stands for it", 100.0_wp*statistics%inlet_share)
+      if (statistics%hot_share > 0.0_wp) call check_hot_film(model, statistics, remarks)
       if (statistics%rolling_share > 0.0_wp) call check_rolling(statistics, remarks)
       if (statistics%thin_share > 0.0_wp) call check_thin_film(allocated(model%boundary), statistics, remarks)
       if (statistics%film_range%share <= 0.0_wp) return
@@ -332,6 +350,43 @@ contains
          call add_remark(remarks, outside_range, text, 100.0_wp*statistics%film_range%share)
       end if
    end subroutine check_range
+
+   !> Say that a film is so much warmer than the oil around that its oil is not the lubricant any more.
+   subroutine check_hot_film(model, statistics, remarks)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Means over its cycle
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Relative errors of the viscosity and of the pressure-viscosity coefficient at the largest rise; one that is none [-]
+      real(wp) :: errors(2)
+      real(wp), parameter :: no_error = 1.0e-3_wp
+      character(len=*), parameter :: side(2) = ["below", "above"]
+      character(len=:), allocatable :: text
+      logical :: has_law, is_said(2)
+
+      text = "the film is up to "//number_text(statistics%hot_rise, 3)//" K warmer than the oil, at "
+      call append_cam_angle(text, statistics%hot_angle, 1)
+      text = text//", where "
+      call compare_hot_oil(model%heat, model%lubricant, model%oil, statistics%hot_rise, errors, has_law)
+      if (has_law) then
+         is_said = abs(errors) > no_error .or. abs(errors) >= maxval(abs(errors))
+         if (is_said(1)) text = text//"its viscosity without pressure is "//number_text(100.0_wp*abs(errors(1)), 2)//" % "// &
+            & side(merge(1, 2, errors(1) < 0.0_wp))
+         if (all(is_said)) text = text//" and "
+         if (is_said(2)) text = text//"its pressure-viscosity coefficient is "//number_text(100.0_wp*abs(errors(2)), 2)//" % "// &
+            & side(merge(1, 2, errors(2) < 0.0_wp))
+         text = text//" what the lubricant has"
+      else
+         text = text//"the lubricant's own laws have no value"
+      end if
+      text = text//"; the oil of a hot film, through 0, 15 and 30 K above the oil around, is within 1 % up to "// &
+         & number_text(statistics%good_rise, 2)//" K, and the film is hotter for "// &
+         & number_text(100.0_wp*statistics%hot_share, 3)//" % of the cycle"
+      call add_remark(remarks, hot_film, text, statistics%hot_rise)
+   end subroutine check_hot_film
 
    !> Warn where the law of rolling resistance was used for contacts that it does not describe.
    pure subroutine check_rolling(statistics, remarks)

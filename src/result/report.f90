@@ -10,7 +10,7 @@ module camroller_report
    use camroller_model, only : model_t
    use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_cycle_remarks, only : judge_films, judge_lobe, judge_pin, judge_pressure
+   use camroller_cycle_remarks, only : judge_films, judge_laws, judge_lobe, judge_pin, judge_pressure
    use camroller_catalogue, only : list_series, follower_count, follower_values, camshaft_columns, camshaft_count, &
       & camshaft_values, lobe_columns, lobe_prefix
    use camroller_extremes, only : samples_t
@@ -232,6 +232,7 @@ contains
 
       integer :: lobe, pin, pressure
 
+      call judge_laws(models(1), result%remarks)
       do lobe = 1, size(models)
          associate (named => merge(lobe, 0, size(models) > 1))
             call judge_films(statistics(lobe), find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))// &

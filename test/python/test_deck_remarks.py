@@ -126,6 +126,22 @@ def test_film_range_remark_says_which_group_and_which_law(camroller, tmp_path):
     assert remarks("--set", "film.law=moes") == []
 
 
+@pytest.mark.parametrize(("law", "count"), [("greenwood_tripp", 1), ("masjedi_khonsari", 0)])
+def test_asperities_that_are_foreign_to_a_rough_film_give_one_remark(camroller, tmp_path, law, count):
+    values = ("film.law='masjedi_khonsari_rough'", f"asperity.law='{law}'", "materials.hardness_GPa=4")
+    said = [remark for remark in remarks_of(camroller, "decks/thesis.nml", *values) if "do not go together" in remark]
+    assert len(said) == count
+    words = [camroller, "run", "decks/thesis.nml", "-o", str(tmp_path / "a.h5"), "--no-sweep"]
+    result = subprocess.run([*words, *(word for value in values for word in ("--set", value))], capture_output=True, text=True,
+                            cwd=ROOT, check=True)
+    assert result.stderr.count("do not go together") == count
+
+
+def test_a_law_that_is_varied_gives_the_remark_once(camroller):
+    values = ("sweep.values_3='moes', 'masjedi_khonsari_rough'", "sweep.key_3=film.law", "materials.hardness_GPa=4")
+    assert len([remark for remark in remarks_of(camroller, "decks/thesis.nml", *values) if "do not go together" in remark]) == 1
+
+
 def rounded_lift(folder, digit):
     """The lift table of a shipped deck, rounded to so many millimetres."""
     text = (ROOT / "decks/tables/polynomial_lift.txt").read_text(encoding="utf-8")

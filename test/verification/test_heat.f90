@@ -13,7 +13,7 @@ module test_heat
    use camroller_kinematics, only : rotation_names
    use camroller_lubricant, only : pressure_law_names
    use camroller_model, only : model_t, new_model
-   use camroller_remarks, only : hot_inlet, remark_lines
+   use camroller_remarks, only : hot_film, hot_inlet, remark_lines
    use camroller_result, only : result_t
    use camroller_state, only : state_t, evaluate_state
    use camroller_torque_list, only : of_residual
@@ -41,6 +41,7 @@ contains
          new_unittest("bodies of infinite conductivity and an oil whose viscosity ignores temperature change no bit", test_cold), &
          new_unittest("results are the same in other units", test_units), &
          new_unittest("a remark names the angles where the inlet factor is beyond its range", test_remark), &
+         new_unittest("a remark names rise and error of a film that is hotter than its oil is good for", test_hot_film), &
          new_unittest("incomplete or contradictory cases with heat are refused", test_refusals) &
          ]
    end subroutine collect_heat
@@ -266,6 +267,36 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_remark
+
+   !> Bodies that conduct badly keep the heat of a roller on cold oil that its bearing brakes.
+   subroutine test_hot_film(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      integer :: i
+
+      do i = 1, 3
+         case = thesis_case()
+         call set_point(case, point_speeds(3), point_viscosities(1))
+         case%operating_point%oil_temperature = 273.15_wp
+         case%lubricant%temperature_law = merge("walther", "vogel  ", i < 3)
+         case%lubricant%temperature_points = [298.15_wp, 333.15_wp, 368.15_wp]
+         case%lubricant%viscosity_points = [0.15_wp, 0.0305_wp, 0.01_wp]
+         if (i < 3) case%lubricant%temperature_points = [298.15_wp, 368.15_wp]
+         if (i < 3) case%lubricant%viscosity_points = [0.15_wp, 0.01_wp]
+         allocate (case%heat)
+         case%heat%conductivity = 5.0_wp
+         if (i > 1) case%needle_bearing%friction_coefficient = 0.1_wp
+         call run(case, result, error)
+         if (allocated(error)) return
+         call check(error, any(result%remarks%kind == hot_film) .eqv. i == 2, remark_lines(result%remarks))
+         if (allocated(error)) return
+         if (i == 2) call check(error, index(remark_lines(result%remarks), " K warmer than the oil, at cam angle ") > 0 .and. &
+            & index(remark_lines(result%remarks), " % below what the lubricant has; the oil of a hot film") > 0, &
+            & remark_lines(result%remarks))
+         if (allocated(error)) return
+      end do
+   end subroutine test_hot_film
 
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error

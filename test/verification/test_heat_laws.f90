@@ -7,7 +7,7 @@ module test_heat_laws
    use camroller_conjunction, only : hot_oil_t, body_t, band_t, sheared_film_t, film_shear_t, band_mean, new_band, &
       & flash_resistance, film_resistance, log_viscosity_change, hot_shear
    use camroller_heat, only : heat_t, heat_part_t, new_heat_part, set_heat_oil, inlet_factor, inlet_law_names, &
-      & is_inlet_in_range
+      & is_inlet_in_range, hot_oil_range, compare_hot_oil
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, pressure_law_names, law_roelands
    use camroller_names, only : index_of_name
    use camroller_traction, only : law_newtonian, law_eyring, cap_smooth, limit_shear
@@ -33,7 +33,8 @@ contains
          new_unittest("a film heated uniformly is q h/(12 k) warmer in the mean and q h/(8 k) in the middle", test_film), &
          new_unittest("shear at the temperature that it causes agrees with Python for every shear law", test_shear), &
          new_unittest("the fitted viscosity change agrees with Vogel's law to round-off and Walther's to 0.3 % over 60 K", &
-            & test_oils) &
+            & test_oils), &
+         new_unittest("the oil of a hot film is the lubricant's to 1 % as far as it says, and not beyond", test_hot_range) &
          ]
    end subroutine collect_heat_laws
 
@@ -356,5 +357,56 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_oils
+
+   !> Vogel's law, Walther's, one that is given at a temperature, and a coefficient of which nothing but the data sheet is known.
+   subroutine test_hot_range(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(lubricant_t) :: lubricant
+      type(heat_part_t) :: part
+      type(oil_t) :: oil, own, warm
+      type(error_t), allocatable :: failure
+      ! Largest rise of each [K]; relative errors, change of ln(viscosity) [-], its slope [1/K]
+      real(wp) :: ranges(4), errors(2), change, slope
+      integer :: i
+      logical :: has_law
+
+      do i = 1, 4
+         lubricant = lubricant_t(pressure_viscosity=merge(0.0_wp, 2.2e-8_wp, i == 4))
+         select case (i)
+         case (1)
+            lubricant%temperature_law = "vogel"
+            lubricant%temperature_points = [298.15_wp, 333.15_wp, 368.15_wp]
+            lubricant%viscosity_points = [0.15_wp, 0.0305_wp, 0.01_wp]
+         case (2)
+            lubricant%viscosity = 0.05_wp
+         case default
+            lubricant%temperature_law = "data_sheet"
+            lubricant%sae_grade = "30"
+         end select
+         call get_oil(lubricant, 290.0_wp, oil, failure)
+         call new_heat_part(part, heat_t(viscosity_fall=merge(0.03_wp, 0.0_wp, i == 2)), failure)
+         call set_heat_oil(part, lubricant, 290.0_wp, oil, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         ranges(i) = hot_oil_range(part, lubricant, oil)
+         if (i < 3) call check(error, ranges(i) > 1.0e3_wp, trim(lubricant%temperature_law)//" is not met")
+         if (allocated(error) .or. i < 3) cycle
+         call compare_hot_oil(part, lubricant, oil, ranges(i), errors, has_law)
+         call check(error, has_law .and. maxval(abs(errors)) <= 0.01_wp, "an error within the range")
+         if (allocated(error)) return
+         call compare_hot_oil(part, lubricant, oil, ranges(i) + 0.7_wp, errors, has_law)
+         call check(error, maxval(abs(errors)) > 0.01_wp, "no error beyond the range")
+         if (allocated(error)) return
+         call log_viscosity_change(part%hot, 100.0_wp, change, slope)
+         call get_oil(lubricant, 390.0_wp, own, failure)
+         call compare_hot_oil(part, lubricant, oil, 100.0_wp, errors, has_law)
+         call check_close(error, 1.0_wp + errors(1), oil%viscosity*exp(change)/own%viscosity, roundings, "viscosity")
+         if (allocated(error)) return
+         warm%pressure_viscosity = oil%pressure_viscosity*exp(-100.0_wp*part%hot%pressure_fall)
+         call check_close(error, 1.0_wp + errors(2), warm%pressure_viscosity/own%pressure_viscosity, roundings, "coefficient")
+         if (allocated(error)) return
+      end do
+      call check(error, ranges(3) > 30.0_wp .and. ranges(3) < 90.0_wp .and. ranges(4) < ranges(3), "Walther's law")
+   end subroutine test_hot_range
 
 end module test_heat_laws

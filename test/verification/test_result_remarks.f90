@@ -7,8 +7,8 @@ module test_result_remarks
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
    use camroller_number_text, only : number_text
-   use camroller_remarks, only : bearing_width, film_without_limit, orbit_out_of_range, remark_lines, rolling_out_of_range, &
-      & rubbing_bearing
+   use camroller_remarks, only : bearing_width, film_without_limit, foreign_asperities, orbit_out_of_range, outside_range, &
+      & remark_lines, rolling_out_of_range, rubbing_bearing
    use camroller_result, only : find_quantity, get_summary, result_t
    use camroller_run, only : run_case
    use closeness, only : expect_error
@@ -31,7 +31,10 @@ contains
          new_unittest("rolling resistance by a law for elastic contacts gives a remark where the contact is rigid", test_rolling), &
          new_unittest("a camshaft bearing whose width its law is not for gives a remark with how far", test_width), &
          new_unittest("a film of a camshaft bearing too thin for smooth surfaces gives a remark", test_thin_film), &
-         new_unittest("an orbit beyond the eccentricities of its fit gives a remark", test_far_orbit) &
+         new_unittest("an orbit beyond the eccentricities of its fit gives a remark", test_far_orbit), &
+         new_unittest("a rough film gives a remark with asperities of Greenwood and Tripp, not with its own", test_asperities), &
+         new_unittest("roughness and hardness beyond those of a rough film's paper give a remark, or refuse the case", &
+            & test_rough_range) &
          ]
    end subroutine collect_result_remarks
 
@@ -306,5 +309,51 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_far_orbit
+
+   subroutine test_asperities(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      integer :: i
+
+      do i = 1, 4
+         case = thesis_case()
+         if (i > 1) case%film%law = "masjedi_khonsari_rough"
+         if (i == 3) case%asperity%law = "masjedi_khonsari"
+         if (i == 4) deallocate (case%asperity)
+         call run(case, result, error)
+         if (allocated(error)) return
+         call check(error, count(result%remarks%kind == foreign_asperities), merge(1, 0, i == 2), remark_lines(result%remarks))
+         if (allocated(error)) return
+      end do
+   end subroutine test_asperities
+
+   !> The event has a load within the range of the law, so that roughness or hardness alone bring the remark.
+   subroutine test_rough_range(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      do i = 1, 2
+         case = thesis_case()
+         case%film%law = "masjedi_khonsari_rough"
+         case%asperity%law = "masjedi_khonsari"
+         case%materials%hardness = 20.0e9_wp
+         case%surface%cam_roughness = 0.8e-6_wp
+         if (i == 2) case%film%range_policy = "stop"
+         call run_case(case, result, failure)
+         if (i == 2) then
+            call expect_error(error, failure, kind_domain, "hardness/E' up to 0.0991, published for 0.005 to 0.03")
+            return
+         end if
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         call check(error, any(result%remarks%kind == outside_range) .and. index(remark_lines(result%remarks), "; sigma/R up to ") &
+            & > 0, remark_lines(result%remarks))
+         if (allocated(error)) return
+      end do
+   end subroutine test_rough_range
 
 end module test_result_remarks
