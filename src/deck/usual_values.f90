@@ -149,7 +149,49 @@ module camroller_usual_values
       usual_t("finger_pivot.ball_radius_mm", 2.0_wp, 15.0_wp), &
       usual_t("finger_pivot.friction_coefficient", 0.0_wp, 0.3_wp), &
       usual_t("needle_drag.pitch_diameter_mm", 4.0_wp, 50.0_wp), &
-      usual_t("needle_drag.viscous_factor", 1.0_wp, 30.0_wp)]
+      usual_t("needle_drag.viscous_factor", 1.0_wp, 30.0_wp), &
+      ! From a moped's cylinder to a truck's engine of six
+      usual_t("engine.displacement_cm3", 40.0_wp, 2.0e4_wp), &
+      ! A steel finger, its pad and a seat yield by some micrometres under some hundred newtons; stamped fingers and thin valve
+      ! heads are the softest, by an order, forged ones of trucks the stiffest
+      usual_t("dynamics.finger_stiffness_N_m", 1.0e6_wp, 1.0e9_wp), &
+      usual_t("dynamics.pad_stiffness_N_m", 1.0e6_wp, 1.0e9_wp), &
+      usual_t("dynamics.seat_stiffness_N_m", 1.0e6_wp, 1.0e9_wp), &
+      ! Steel gives back all but a tenth to three quarters of the speed of an impact at some tenths of a metre per second
+      usual_t("dynamics.contact_damping_s_m", 0.0_wp, 10.0_wp), &
+      usual_t("dynamics.pad_damping_s_m", 0.0_wp, 10.0_wp), &
+      usual_t("dynamics.seat_damping_s_m", 0.0_wp, 20.0_wp), &
+      usual_t("dynamics.seat_restitution", 0.05_wp, 0.95_wp), &
+      usual_t("dynamics.seat_restitution_speed_m_s", 0.02_wp, 3.0_wp), &
+      ! Cold clearances are 0.1 to 0.4 mm, of large exhaust valves up to 0.8 mm
+      usual_t("dynamics.lash_mm", 0.0_wp, 1.0_wp), &
+      ! Wire of 2.5 to 6 mm
+      usual_t("spring_surge.mass_kg", 5.0e-3_wp, 0.5_wp), &
+      usual_t("spring_surge.damping_ratio", 1.0e-3_wp, 0.1_wp), &
+      ! Adjusters of cars have plungers of 8 to 12 mm, those of trucks up to 25 mm, with a selective fit of 2 to 10 um
+      usual_t("lash_adjuster.diameter_mm", 4.0_wp, 30.0_wp), &
+      usual_t("lash_adjuster.volume_cm3", 0.02_wp, 5.0_wp), &
+      usual_t("lash_adjuster.gap_um", 1.0_wp, 25.0_wp), &
+      usual_t("lash_adjuster.leak_length_mm", 2.0_wp, 40.0_wp), &
+      usual_t("lash_adjuster.plunger_mass_kg", 1.0e-3_wp, 0.2_wp), &
+      usual_t("lash_adjuster.plunger_spring_N", 2.0_wp, 150.0_wp), &
+      usual_t("lash_adjuster.plunger_stiffness_N_m", 0.0_wp, 2.0e4_wp), &
+      ! A ball of 2 to 6 mm that lifts by some tenths of a millimetre
+      usual_t("lash_adjuster.check_area_mm2", 0.3_wp, 40.0_wp), &
+      usual_t("lash_adjuster.discharge_coefficient", 0.3_wp, 1.0_wp), &
+      usual_t("lash_adjuster.crack_pressure_kPa", 0.0_wp, 100.0_wp), &
+      usual_t("lash_adjuster.full_pressure_kPa", 0.5_wp, 300.0_wp), &
+      usual_t("lash_adjuster.transition_pressure_kPa", 0.005_wp, 20.0_wp), &
+      ! Pressure of an oil gallery from idling to the relief valve
+      usual_t("lash_adjuster.supply_pressure_MPa", 0.02_wp, 1.0_wp), &
+      usual_t("lash_adjuster.air_content", 1.0e-3_wp, 0.2_wp), &
+      ! Mineral oil, cold to hot
+      usual_t("lash_adjuster.oil_modulus_GPa", 0.8_wp, 2.5_wp), &
+      usual_t("lash_adjuster.density_kg_m3", 700.0_wp, 1050.0_wp), &
+      usual_t("lash_adjuster.lowest_mm", -10.0_wp, -0.1_wp), &
+      usual_t("lash_adjuster.highest_mm", 0.1_wp, 10.0_wp), &
+      usual_t("lash_adjuster.stop_stiffness_N_m", 1.0e6_wp, 1.0e9_wp), &
+      usual_t("lash_adjuster.stop_damping_s_m", 0.0_wp, 20.0_wp)]
 
 contains
 

@@ -15,9 +15,10 @@ module camroller_flexible_report
    use camroller_flexible_follower, only : evaluate_follower
    use camroller_flexible_parts, only : damper_count, damper_series, dampers_without_adjuster
    use camroller_flexible_measures, only : bounce_height, bounces, coil_ratio, event_check_share, highest_plunger, &
-      & largest_load_angle, losses_of_contact, lowest_plunger, measures, seating_speed, smallest_pivot_force, tension_share
+      & largest_lift, largest_load_angle, losses_of_contact, lowest_plunger, measures, seating_speed, smallest_pivot_force, &
+      & tension_share
    use camroller_flexible_solution, only : error_share, flexible_solution_t, statistical_turns
-   use camroller_flexible_train, only : resolution_t
+   use camroller_flexible_train, only : at_lift, resolution_t
    use camroller_cam_angle, only : file_angle
    use camroller_follower_samples, only : add_shares, shares_t
    use camroller_kinds, only : two_pi, wp
@@ -25,7 +26,8 @@ module camroller_flexible_report
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_quadrature, only : gauss_legendre
-   use camroller_remarks, only : add_remark, bouncing_valve, clashing_coils, long_period, lost_contact, no_period, open_pivot, &
+   use camroller_remarks, only : add_remark, bouncing_valve, clashing_coils, long_period, lost_contact, missing_lift, &
+      & no_period, open_pivot, &
       & remark_t, rising_plunger, stopped_plunger
    use camroller_result, only : append_quantity, find_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, take_quantities
    use camroller_state, only : state_t
@@ -368,6 +370,7 @@ contains
 
       call write_speed(model%speed, model%crank_turns, 6, speed)
       call judge_period(solution, speed, remarks)
+      call judge_lift(model, solution, speed, remarks)
       if (lost_share > 0.0_wp) then
          text = "cam and roller lose contact "//number_text(solution%mean(losses_of_contact), 3)//" times per cycle, for "// &
             & number_text(100.0_wp*lost_share, 3)//" % of it, at "//speed
@@ -396,6 +399,36 @@ contains
             & solution%highest(coil_ratio))
       end if
    end subroutine judge_train
+
+   !> Remark on a valve that opens by much less than its cam would lift it.
+   subroutine judge_lift(model, solution, speed, remarks)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Solution of its train
+      type(flexible_solution_t), intent(in) :: solution
+      !> Its speed in words
+      character(len=*), intent(in) :: speed
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Part of the largest lift that may be missing [-]: compliance, lash and leak together take less
+      real(wp), parameter :: most_missing = 0.1_wp
+      ! Largest lift of a rigid train, and of the turn that has least [m]
+      real(wp) :: wanted, reached
+      integer :: turn
+
+      wanted = largest_lift(model)
+      reached = wanted
+      do turn = 1, size(solution%turns)
+         associate (trajectory => solution%turns(turn))
+            reached = min(reached, maxval(trajectory%state(at_lift, :trajectory%count)))
+         end associate
+      end do
+      if (reached >= (1.0_wp - most_missing)*wanted) return
+      call add_remark(remarks, missing_lift, "the valve opens by "//number_text(1.0e3_wp*max(0.0_wp, reached), 3)//" mm at "// &
+         & speed//", where its cam would lift it by "//number_text(1.0e3_wp*wanted, 3)//" mm; the finger yields by what is "// &
+         & "missing: are the stiffnesses of &dynamics, in N/m, and lash and adjuster right?", 100.0_wp*(1.0_wp - reached/wanted))
+   end subroutine judge_lift
 
    !> Remarks on the plunger of a lash adjuster.
    subroutine judge_plunger(adjuster, solution, speed, remarks)
