@@ -78,7 +78,8 @@ contains
       end associate
    end subroutine fill_roller_bearing
 
-   !> Rules: the ring's wall is thinner than its radius, a needle fits into the hole, and a pin with a film has what that needs.
+   !> Rules: the ring's wall is thinner than its radius, needles fit between it and a pin, and a pin with a film has what that
+   !> needs.
    subroutine check_roller_bearing(settings, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -108,9 +109,10 @@ contains
          return
       end if
       call take(settings, group, "needle_radius_mm", needle)
-      if (needle < radius - wall) return
+      if (2.0_wp*needle < radius - wall) return
       call complain(mistakes, settings, group, "needle_radius_mm", &
-         & "'needle_radius_mm' must be below the inner radius of the roller, 'radius_mm' less 'wall_thickness_mm'")
+         & "'needle_radius_mm' must be below half of the inner radius of the roller, 'radius_mm' less 'wall_thickness_mm', or "// &
+         & "no pin is left between the needles")
    end subroutine check_roller_bearing
 
    !> A pin with a film has its numbers, a width that its law covers, surfaces that are apart in the middle, and no company that it

@@ -323,7 +323,11 @@ contains
 
       call expect_mistake(error, "= 2.4", "= 8.5", "4:62: 'wall_thickness_mm' must be below 'radius_mm'")
       call expect_mistake(error, "", "&needle_bearing friction_coefficient = 0 needle_radius_mm = 6.2 /", &
-         & "11:61: 'needle_radius_mm' must be below the inner radius")
+         & "11:61: 'needle_radius_mm' must be below half of the inner radius")
+      ! The bore has a radius of 8.5 - 2.4 = 6.1 mm
+      call expect_mistake(error, "", "&needle_bearing friction_coefficient = 0 needle_radius_mm = 3.06 /", &
+         & "11:61: 'needle_radius_mm' must be below half of the inner radius")
+      call expect_valid(error, "", "&needle_bearing friction_coefficient = 0 needle_radius_mm = 3.0 /")
       call expect_mistake(error, "", "&needle_bearing friction_coefficient = 0 /", "11:1: kind 'needles' needs")
       call expect_valid(error, "", "&needle_bearing friction_coefficient = 0 kind = 'plain_pin' /")
       call expect_mistake(error, "", shaft//"bearing_positions_mm = 0 60 cam_positions_mm = 61 /", &
