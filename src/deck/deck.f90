@@ -7,10 +7,11 @@ module camroller_deck
    use camroller_case, only : case_t
    use camroller_number_text, only : integer_text
    use camroller_case_columns, only : column_reader_t
-   use camroller_mistakes, only : mistakes_t, raise_mistakes, override_place
+   use camroller_mistakes, only : add_mistake, mistakes_t, raise_mistakes, override_place
    use camroller_text_file, only : read_standard_input, read_text_file, folder_of
    use camroller_deck_include, only : origins_t, expand_includes, say_origin, place_mistakes
    use camroller_deck_text, only : deck_text_t, read_shape
+   use camroller_text_encoding, only : check_encoding, first_foreign
    use camroller_deck_schema, only : schema_t
    use camroller_deck_keys, only : new_schema
    use camroller_settings, only : settings_t, group_position
@@ -110,9 +111,12 @@ contains
       call new_schema(deck%schema)
       call read_shape(deck%text, deck%shape, mistakes)
       call new_settings(deck%schema, deck%settings)
+      call check_encoding(deck%shape%lines, mistakes)
       call match_deck(deck%schema, deck%shape, deck%settings, mistakes)
       do i = 1, size(overrides)
          call apply_override(deck%schema, overrides(i), deck%settings, mistakes)
+         if (first_foreign(overrides(i)%text) > 0) call add_mistake(mistakes, "the value is no UTF-8", 0, 1, &
+            & len(overrides(i)%text), override_place, overrides(i)%text)
       end do
       call demand_required(deck%schema, deck%settings, mistakes)
       call complete(deck%settings, deck%folder, deck%tables, mistakes)

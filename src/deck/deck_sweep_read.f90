@@ -4,11 +4,11 @@
 module camroller_deck_sweep_read
    use camroller_kinds, only : wp
    use camroller_number_text, only : integer_text, is_beyond_range, is_number
-   use camroller_mistakes, only : mistakes_t, add_mistake
+   use camroller_mistakes, only : mistakes_t, add_mistake, shown
    use camroller_samples, only : sobol_axes
    use camroller_deck_schema, only : schema_t, type_number, type_integer, type_numbers, type_integers, type_words
    use camroller_deck_sweep_keys, only : sweep_key_count
-   use camroller_deck_values, only : next_word, longest_text
+   use camroller_deck_values, only : has_empty_place, next_word, longest_text
    use camroller_settings, only : settings_t, take, is_known, is_wrong, get_word, has_group
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_matching, only : override_t, apply_override, find_override
@@ -208,6 +208,8 @@ contains
       integer :: group, key
 
       call find_override(schema, name//"=0", settings, group, key, reason)
+      if (index(name, ".") == 0) reason = "'"//shown(name)//"' is no name of a key: that is given as group.key, as "// &
+         & "operating_point.speed_rpm"
       if (.not. allocated(reason)) then
          if (schema%groups(group)%name == "sweep" .or. schema%groups(group)%name == "output") then
             reason = "keys of &"//trim(schema%groups(group)%name)//" cannot be swept"
@@ -278,6 +280,11 @@ contains
 
       integer :: position, first, last, n, width, pass
 
+      if (has_empty_place(text)) then
+         call complain(mistakes, settings, "sweep", "values_"//digit, "'values_"//digit//"' has an empty place between commas: "// &
+            & shown(text))
+         return
+      end if
       width = 1
       do pass = 1, 2
          n = 0

@@ -7,8 +7,9 @@ module camroller_sweep_table
    use camroller_error, only : error_t
    use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_text_lines, only : text_lines_t, split_lines, line_at
-   use camroller_number_text, only : integer_text
+   use camroller_number_text, only : integer_text, is_number
    use camroller_deck_values, only : split_words, longest_text
+   use camroller_text_encoding, only : check_encoding
    use camroller_text_file, only : read_text_file
    use camroller_text_list, only : new_text_list, put_text_at
    use camroller_case_columns, only : column_t, column_reader_t
@@ -78,6 +79,7 @@ contains
       integer :: i, j, n, rows, pass
 
       call split_lines(text, lines)
+      call check_encoding(lines, mistakes, path)
       allocate (columns(0))
       do pass = 1, 2
          rows = -1
@@ -91,6 +93,7 @@ contains
                   & " columns", i, 0, 0, path, line_at(lines, i))
                if (rows < 0) return
             else if (pass == 1 .and. rows == 0) then
+               call check_heading(words(:n), path, i, line_at(lines, i), mistakes)
                deallocate (columns)
                allocate (columns(n), widths(n))
                widths = 1
@@ -118,6 +121,28 @@ contains
          end do
       end do
    end subroutine read_rows
+
+   !> Refuse a first line that holds no names.
+   subroutine check_heading(words, path, line, text, mistakes)
+      !> Words of the line
+      character(len=*), intent(in) :: words(:)
+      !> Path of the file, for messages
+      character(len=*), intent(in) :: path
+      !> Number of the line, and the line
+      integer, intent(in) :: line
+      character(len=*), intent(in) :: text
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      integer :: i
+
+      if (any([(is_number(trim(words(i))), i=1, size(words))])) then
+         call add_mistake(mistakes, "the first line of a table of cases holds the names of its columns, as "// &
+            & "operating_point.speed_rpm, and no numbers", line, 0, 0, path, text)
+      else if (any(words(:)(1:1) == "[")) then
+         call add_mistake(mistakes, "a name with a blank, as 'measured.torque [N m]', stands in quotes", line, 0, 0, path, text)
+      end if
+   end subroutine check_heading
 
    !> Where the values of a line end: before its comment.
    pure function end_of_values(text, first, last) result(place)

@@ -87,14 +87,17 @@ contains
       words = words//"?"
    end subroutine ask_value
 
-   !> Ask whether a kinematic viscosity was meant.
+   !> Ask whether a viscosity in mPa s or a kinematic one was meant: both have numbers of that size.
    pure subroutine ask_kinematic(number, words)
-      !> The number [mm^2/s]
+      !> The number [mPa s] or [mm^2/s]
       real(wp), intent(in) :: number
       !> The question
       character(len=:), allocatable, intent(out) :: words
 
-      words = "; did you mean "//number_text(number, digits)//" mm^2/s? That is viscosity_at_40_degC_mm2_s or "// &
+      real(wp), parameter :: millesimal = 1.0e-3_wp ! [-]
+
+      words = "; did you mean "//number_text(millesimal*number, digits)//" Pa s, which is "//number_text(number, digits)// &
+         & " mPa s, or "//number_text(number, digits)//" mm^2/s? That is viscosity_at_40_degC_mm2_s or "// &
          & "viscosity_at_100_degC_mm2_s of temperature_law 'data_sheet'"
    end subroutine ask_kinematic
 

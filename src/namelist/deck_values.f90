@@ -19,7 +19,7 @@ module camroller_deck_values
    implicit none
    private
 
-   public :: value_t, read_value, next_word, split_words, longest_text
+   public :: value_t, read_value, next_word, has_empty_place, split_words, longest_text
 
    !> Longest list and longest text
    integer, parameter :: longest_list = 512, longest_text = 512
@@ -347,6 +347,39 @@ contains
       end if
       position = last + 1
    end subroutine next_word
+
+   !> Has a list a comma without a word before it, or one behind its last word? Quoted text stays in one piece.
+   pure function has_empty_place(text) result(verdict)
+      !> The list
+      character(len=*), intent(in) :: text
+      !> Has it?
+      logical :: verdict
+
+      integer :: position, before, first, last
+
+      position = 1
+      verdict = .false.
+      do
+         before = position
+         call next_word(text, position, first, last)
+         if (first == 0) exit
+         ! One comma stands between two words, none before the first
+         verdict = verdict .or. commas(text(before:first - 1)) > merge(0, 1, before == 1)
+      end do
+      verdict = verdict .or. commas(text(before:)) > 0
+   end function has_empty_place
+
+   !> Number of commas in a text.
+   pure function commas(text) result(number)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Their number
+      integer :: number
+
+      integer :: i
+
+      number = count([(text(i:i) == ",", i=1, len(text))])
+   end function commas
 
    !> Cut a list into its words.
    pure subroutine split_words(text, words, count)

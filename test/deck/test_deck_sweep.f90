@@ -137,7 +137,12 @@ contains
          & "11:65: 'operating_point.speed_rpm' is swept twice")
       call expect_mistake(error, "", "&sweep key_1 = 'operating_point.speed' values_1 = 1 /", &
          & "11:16: unknown key 'speed' in &operating_point; did you mean 'speed_rpm'?")
-      call expect_mistake(error, "", "&sweep key_1 = 'speed_rpm' values_1 = 1 /", "11:16: expected group.key=value")
+      call expect_mistake(error, "", "&sweep key_1 = 'speed_rpm' values_1 = 1 /", "11:16: 'speed_rpm' is no name of a key: "// &
+         & "that is given as group.key")
+      call expect_mistake(error, "", "&sweep key_1 = 'operating_point.speed_rpm' values_1 = 300,,900 /", &
+         & "11:55: 'values_1' has an empty place between commas: 300,,900")
+      call expect_mistake(error, "", "&sweep key_1 = 'operating_point.speed_rpm' values_1 = , 300 900 /", &
+         & "11:55: 'values_1' has an empty place between commas")
       call expect_mistake(error, "", "&sweep key_1 = 'asperity.boundary' values_1 = 'full' /", "11:16: &asperity is not in")
       call expect_mistake(error, "", "&sweep key_1 = 'lift.exponents' values_1 = 3 4 /", "11:16: 'exponents' is a list")
       call expect_mistake(error, "", "&sweep key_1 = 'output.series' values_1 = .true. /", "11:16: keys of &output cannot be swept")

@@ -1,6 +1,7 @@
 """Decks and tables as people's programs write them: marks, encodings, headings; and where mistakes are said to be."""
 
 import pathlib
+import re
 import shutil
 import subprocess
 
@@ -54,7 +55,8 @@ def test_a_binary_deck_is_refused_without_quoting_it(camroller, tmp_path, conten
 def test_messages_are_readable_for_a_deck_in_another_encoding(camroller, tmp_path):
     path = tmp_path / "deck.nml"
     path.write_bytes(b"! gr\xf6\xdfe\n" + THESIS.encode("utf-8"))
-    assert check(camroller, path).returncode == 0
+    result = check(camroller, path)
+    assert result.returncode == DECK and "! gr??e" in result.stderr
     path.write_bytes(b"&roller gr\xf6\xdfe = 1 /\n")
     assert "gr??e" in check(camroller, path).stderr
 
@@ -119,6 +121,43 @@ def test_mistakes_in_a_table_of_cases_name_its_lines(camroller, tmp_path):
     assert f"{table}:3: a row has 2 columns, not 1" in check(camroller, tmp_path / "deck.nml").stderr
     table.write_text("roller.mass_kg\n", encoding="utf-8")
     assert f"{table}: the table has no cases" in check(camroller, tmp_path / "deck.nml").stderr
+
+
+@pytest.mark.parametrize(("text", "words"), [
+    ("600 60\n900 60\n", ":1: the first line of a table of cases holds the names of its columns, as operating_point.speed_rpm, and no numbers"),
+    ("operating_point.speed_rpm, measured.torque [N m]\n600, 0.1\n", ":1: a name with a blank, as 'measured.torque [N m]', stands in quotes"),
+])
+def test_a_table_of_cases_without_names_says_what_belongs_there(camroller, tmp_path, text, words):
+    (tmp_path / "cases.csv").write_text(text, encoding="utf-8")
+    deck = re.sub(r"&sweep.*", "&sweep kind = 'table' table = 'cases.csv' /\n", THESIS, flags=re.S)
+    (tmp_path / "deck.nml").write_text(deck, encoding="utf-8")
+    result = check(camroller, tmp_path / "deck.nml")
+    assert result.returncode == DECK and words in result.stderr
+
+
+def test_text_that_is_no_utf8_is_refused_with_its_line(camroller, tmp_path):
+    """A result holds its deck, and readers of the file take UTF-8 alone."""
+    path = tmp_path / "deck.nml"
+    lines = THESIS.splitlines()
+    lines.insert(4, "! geprüft")
+    path.write_bytes("\n".join(lines).encode("latin-1"))
+    result = check(camroller, path)
+    assert result.returncode == DECK and f"{path}:5:7: byte 7 of this line is no UTF-8" in result.stderr
+    path.write_bytes("\n".join(lines).encode("utf-8"))
+    assert check(camroller, path).returncode == 0
+    (tmp_path / "cases.csv").write_bytes("# geprüft\noperating_point.speed_rpm\n600\n".encode("latin-1"))
+    path.write_text(re.sub(r"&sweep.*", "&sweep kind = 'table' table = 'cases.csv' /\n", THESIS, flags=re.S), encoding="utf-8")
+    assert f"{tmp_path / 'cases.csv'}:1: byte 7 of this line is no UTF-8" in check(camroller, path).stderr
+    words = subprocess.run([camroller, "check", "decks/thesis.nml", "--set", b"case.title=gepr\xfcft"], cwd=ROOT, capture_output=True,
+                           check=False)
+    assert words.returncode == DECK and b"the value is no UTF-8" in words.stderr
+    # a byte that continues nothing, a character cut off, written too long, half a pair, beyond the last one
+    for wrong in (b"\x80", b"\xe2\x82", b"\xe0\x80\xaf", b"\xed\xa0\x80", b"\xf4\x90\x80\x80"):
+        path.write_bytes(THESIS.encode() + b"! " + wrong)
+        result = subprocess.run([camroller, "check", path], cwd=ROOT, capture_output=True, check=False)
+        assert result.returncode == DECK and b"byte 3 of this line" in result.stderr
+    path.write_bytes(THESIS.encode() + "! é € 𝛼 \ud7ff\U0010ffff".encode())
+    assert check(camroller, path).returncode == 0
 
 
 @pytest.mark.parametrize(("options", "words", "keys"), [
