@@ -6,20 +6,17 @@ module camroller_deck_remarks
    use camroller_kinds, only : wp
    use camroller_units, only : unit_t, find_unit, from_si, to_si
    use camroller_number_text, only : number_text, is_number
-   use camroller_mistakes, only : line_t
+   use camroller_mistakes, only : add_line, line_t
    use camroller_text_list, only : text_at
    use camroller_deck_schema, only : key_t, type_number, type_numbers
    use camroller_deck_meant, only : ask_kinematic, is_usual, say_meant
    use camroller_deck_sweep, only : sweep_axis_t
    use camroller_settings, only : get_word, take, find_value
-   use camroller_deck_tables, only : get_lift_table
-   use camroller_lift, only : lift_t
-   use camroller_lift_noise, only : find_lift_noise, lift_noise_t
-   use camroller_table_file, only : table_t
+   use camroller_deck_table_remarks, only : remark_lift, remark_pressure, remark_rows
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, make_case, override_t
    use camroller_error, only : error_t
-   use camroller_high_shear, only : compare_hths
+   use camroller_oil_checks, only : compare_hths, find_far_points
    implicit none
    private
 
@@ -32,10 +29,6 @@ module camroller_deck_remarks
    !> HTHS over the viscosity without shear by the law [-]. Smallest: SAE J300 (2021) allows 3.7 mPa s for grade 60, whose 26 mm^2/s
    !> at 100 degC are about 8 mPa s at 150 degC. Largest: one, and room for the law beyond 100 degC
    real(wp), parameter :: usual_thinning(2) = [0.45_wp, 1.1_wp]
-   !> Usual lengths of an event [deg of cam angle], and usual lifts [m]
-   real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
-   !> Powers of ten between a table's unit and another one; nearer ones first
-   integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
 
 contains
 
@@ -49,11 +42,13 @@ contains
       call list_number_remarks(deck, remarks)
       call remark_viscosity(deck, remarks)
       call remark_hths(deck, remarks)
-      call remark_lift(deck, "lift", deck%tables%lift, remarks)
-      call remark_lift(deck, "second_lift", deck%tables%second_lift, remarks)
+      call remark_temperature(deck, remarks)
+      call remark_lift(deck%settings, "lift", deck%tables%lift, remarks)
+      call remark_lift(deck%settings, "second_lift", deck%tables%second_lift, remarks)
+      call remark_pressure(deck%settings, deck%tables%pressure, remarks)
    end subroutine list_deck_remarks
 
-   !> Remarks on the single numbers of a deck, as far as it could be read.
+   !> Remarks on the single numbers of a deck and on single rows of its tables of lift, as far as they could be read.
    subroutine list_number_remarks(deck, remarks)
       !> The deck
       type(deck_t), intent(in) :: deck
@@ -78,6 +73,8 @@ contains
             end if
          end associate
       end do
+      call remark_rows(deck%settings, "lift", deck%tables%lift, remarks)
+      call remark_rows(deck%settings, "second_lift", deck%tables%second_lift, remarks)
    end subroutine list_number_remarks
 
    !> Name of a key with its group.
@@ -155,7 +152,7 @@ contains
       unit = ""
       if (key%unit%symbol /= "1") unit = " "//trim(key%unit%symbol)
       call say_meant(key, number, words)
-      call add_remark(remarks, name//" = "//number_text(number, digits)//" is unusual: engines have "// &
+      call add_line(remarks, name//" = "//number_text(number, digits)//" is unusual: engines have "// &
          & number_text(key%usual%smallest)//" to "//number_text(key%usual%largest, digits)//unit//words)
    end subroutine remark_number
 
@@ -194,11 +191,68 @@ contains
          ! Above the usual range it has its remark already
          if (temperatures(i) < warm .or. viscosities(i) <= thickest_warm .or. viscosities(i) > 20.0_wp) cycle
          call ask_kinematic(viscosities(i), words)
-         call add_remark(remarks, "lubricant: "//number_text(viscosities(i), digits)//" Pa s at "// &
+         call add_line(remarks, "lubricant: "//number_text(viscosities(i), digits)//" Pa s at "// &
             & number_text(from_si(celsius, temperatures(i)), digits)//" degC is unusual: no engine oil is thicker than "// &
             & number_text(thickest_warm)//" Pa s above 20 degC"//words)
       end do
    end subroutine remark_viscosity
+
+   !> Temperatures of the oil, those of a sweep included, far from all at which something is known of it.
+   subroutine remark_temperature(deck, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(override_t) :: none(0)
+      type(case_t) :: case
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: word
+      integer :: axis, i, status, position
+      ! A temperature [degC]
+      real(wp) :: temperature
+      ! How far the temperature farthest away is [K], and the remark on it
+      real(wp) :: distance
+      character(len=:), allocatable :: farthest
+
+      call make_case(deck, none, case, failure)
+      if (allocated(failure)) return
+      farthest = ""
+      distance = 0.0_wp
+      position = find_value(deck%settings, "operating_point", "oil_temperature_degC")
+      axis = axis_of(deck, position)
+      if (axis == 0) then
+         call look_at(case%operating_point%oil_temperature)
+      else if (deck%sweep%axes(axis)%values%count == 0) then
+         call look_at(to_si(deck%schema%keys(position)%unit, deck%sweep%axes(axis)%first))
+         call look_at(to_si(deck%schema%keys(position)%unit, deck%sweep%axes(axis)%last))
+      else
+         do i = 1, deck%sweep%axes(axis)%values%count
+            word = text_at(deck%sweep%axes(axis)%values, i)
+            read (word, *, iostat=status) temperature
+            if (status == 0) call look_at(to_si(deck%schema%keys(position)%unit, temperature))
+         end do
+      end if
+      if (distance > 0.0_wp) call add_line(remarks, farthest)
+
+   contains
+
+      !> Keep the remark on a temperature where it is the farthest so far.
+      subroutine look_at(temperature)
+         !> Temperature of the oil [K]
+         real(wp), intent(in) :: temperature
+
+         character(len=:), allocatable :: words
+         real(wp) :: far ! [K]
+
+         case%operating_point%oil_temperature = temperature
+         call find_far_points(case, far, words)
+         if (far <= distance) return
+         distance = far
+         farthest = words
+      end subroutine look_at
+
+   end subroutine remark_temperature
 
    !> Viscosity at high shear that does not go with the viscosity of the same oil without shear.
    subroutine remark_hths(deck, remarks)
@@ -228,95 +282,9 @@ contains
       if (viscosity <= 0.0_wp .or. (ratio >= usual_thinning(1) .and. ratio <= usual_thinning(2))) return
       words = "no oil gets thicker by shear"
       if (ratio < 1.0_wp) words = "engine oils keep more than "//number_text(usual_thinning(1))//" of it"
-      call add_remark(remarks, "lubricant.hths_viscosity_mPa_s = "//number_text(1.0e3_wp*case%lubricant%hths_viscosity, digits)// &
+      call add_line(remarks, "lubricant.hths_viscosity_mPa_s = "//number_text(1.0e3_wp*case%lubricant%hths_viscosity, digits)// &
          & " is "//number_text(ratio, 3)//" of the "//number_text(1.0e3_wp*viscosity, 3)//" mPa s that the oil has at 150 degC "// &
          & "without shear, by its law of viscosity; "//words//": are they of the same oil?")
    end subroutine remark_hths
-
-   !> A lift table in another unit, or over another angle.
-   subroutine remark_lift(deck, group, table, remarks)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> Group of the lift
-      character(len=*), intent(in) :: group
-      !> Its table
-      type(table_t), intent(in) :: table
-      !> Sentences so far
-      type(line_t), allocatable, intent(inout) :: remarks(:)
-
-      type(unit_t) :: unit
-      logical :: is_there
-      ! Largest lift [m]; length of the event [deg]
-      real(wp) :: largest, length
-      character(len=:), allocatable :: words
-      integer :: i
-
-      if (.not. allocated(table%x) .or. get_word(deck%settings, group, "law") /= "table") return
-      if (size(table%x) == 0) return
-      call find_unit(get_word(deck%settings, group, "table_unit"), unit, is_there)
-      largest = to_si(unit, maxval(table%y))
-      if (largest < usual_lift(1) .or. largest > usual_lift(2)) then
-         words = ""
-         do i = 1, size(slips)
-            if (largest*10.0_wp**slips(i) < usual_lift(1) .or. largest*10.0_wp**slips(i) > usual_lift(2)) cycle
-            words = "; is 'table_unit' right?"
-         end do
-         call add_remark(remarks, table%path//": a largest lift of "//number_text(1.0e3_wp*largest, digits)// &
-            & " mm is unusual: engines have 1 to 25 mm"//words)
-      end if
-      call remark_noise(deck, group, table, remarks)
-      length = table%x(min(size(table%x), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)) &
-         & - table%x(max(1, findloc(table%y > 0.0_wp, .true., dim=1) - 1))
-      if (length >= usual_event(1) .and. length <= usual_event(2)) return
-      words = ""
-      if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = &
-         & "; is the angle that of the crankshaft? A table takes the cam's, half of it"
-      call add_remark(remarks, table%path//": an event of "//number_text(length, digits)// &
-         & " degrees of cam angle is unusual: engines have 60 to 220"//words)
-   end subroutine remark_lift
-
-   !> A lift table whose noise makes up the acceleration.
-   subroutine remark_noise(deck, group, table, remarks)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> Group of the lift
-      character(len=*), intent(in) :: group
-      !> Its table
-      type(table_t), intent(in) :: table
-      !> Sentences so far
-      type(line_t), allocatable, intent(inout) :: remarks(:)
-
-      ! Growth of the acceleration that is worth a word [-]
-      real(wp), parameter :: large = 1.1_wp
-      type(lift_t) :: lift
-      type(lift_noise_t) :: noise
-
-      lift%law = "table"
-      call take(deck%settings, group, "smoothing_um", lift%smoothing)
-      call get_lift_table(deck%settings, group, table, lift%table_angle, lift%table_lift)
-      call find_lift_noise(lift, noise)
-      if (.not. noise%is_known .or. lift%smoothing >= noise%noise) return
-      if (all(abs(noise%given) <= large*abs(noise%smoothed))) return
-      call add_remark(remarks, table%path//": the lift has noise of about "//number_text(1.0e6_wp*noise%noise, 2)// &
-         & " um, which makes its second derivative "//number_text(1.0e3_wp*noise%given(1), 3)//" to "// &
-         & number_text(1.0e3_wp*noise%given(2), 3)//" mm/rad^2; with smoothing_um = "//number_text(1.0e6_wp*noise%noise, 2)// &
-         & " in &"//group//" it is "//number_text(1.0e3_wp*noise%smoothed(1), 3)//" to "// &
-         & number_text(1.0e3_wp*noise%smoothed(2), 3)//". Loads and the speed at which contact is lost follow it")
-   end subroutine remark_noise
-
-   !> Lengthen the list. A constructor within a list would leak its text with gfortran.
-   subroutine add_remark(remarks, text)
-      !> Sentences so far
-      type(line_t), allocatable, intent(inout) :: remarks(:)
-      !> One more
-      character(len=*), intent(in) :: text
-
-      type(line_t), allocatable :: longer(:)
-
-      allocate (longer(size(remarks) + 1))
-      longer(:size(remarks)) = remarks
-      longer(size(longer))%text = text
-      call move_alloc(longer, remarks)
-   end subroutine add_remark
 
 end module camroller_deck_remarks

@@ -10,7 +10,7 @@ module camroller_case_facts
    use camroller_kinematics, only : position_t
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
-   use camroller_high_shear, only : compare_hths
+   use camroller_oil_checks, only : compare_hths
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_number_text, only : number_text, fixed_text
    use camroller_result, only : find_quantity, get_summary, result_t

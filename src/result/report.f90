@@ -19,6 +19,8 @@ module camroller_report
    use camroller_series_extremes, only : extremes_t, find_extremes, find_lobe_extremes
    use camroller_margins, only : margins_t, find_margins
    use camroller_names, only : name_length
+   use camroller_oil_checks, only : find_far_points
+   use camroller_remarks, only : add_remark, far_temperature
    use camroller_result, only : result_t, quantity_t, check_numbers, find_quantity
    use camroller_part_series, only : bearing_count, bearing_series_count
    use camroller_bearing_turn, only : complete_shaft
@@ -215,6 +217,7 @@ contains
       call make_summary(solved, statistics, bearing_torque, of_bearings, margins, extremes, result)
       call list_turns(cycles, result)
       call judge_extremes(case, models, statistics, result)
+      call judge_temperature(case, result)
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)
    end subroutine make_result
@@ -245,6 +248,21 @@ contains
          end associate
       end do
    end subroutine judge_extremes
+
+   !> Remark on a temperature of the oil far from all at which its laws are given.
+   subroutine judge_temperature(case, result)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Gets the remark
+      type(result_t), intent(inout) :: result
+
+      ! Way beyond the points [K]
+      real(wp) :: distance
+      character(len=:), allocatable :: words
+
+      call find_far_points(case, distance, words)
+      if (distance > 0.0_wp) call add_remark(result%remarks, far_temperature, words, distance)
+   end subroutine judge_temperature
 
    !> Cam angles of the output, 0 to 360 with the nose at 180, end point left out [deg].
    pure function output_angles(step) result(angles)

@@ -1,8 +1,9 @@
-!> Noise of a lift table, and what it does to the acceleration.
+!> Noise of a lift table, and what it does to the acceleration; a single row that does not go with its neighbours.
 !>
-!> In: a table of lift over cam angle. Out: an estimate of the noise, and the acceleration with and without smoothing by as much.
-!> The estimate takes sixth differences, in which a smooth lift cancels: uncorrelated noise of standard deviation s has differences
-!> of s sqrt(924). Their median is taken, so that the ends of the event and single bad rows do not count.
+!> In: a table of lift over cam angle. Out: an estimate of the noise, and the acceleration with and without smoothing by as much;
+!> the row that is off, and by how much. The estimate takes sixth differences, in which a smooth lift cancels: uncorrelated noise of
+!> standard deviation s has differences of s sqrt(924). Their median is taken, so that the ends of the event and single bad rows do
+!> not count. A row that is off by e has fourth differences of e (1, -4, 6, -4, 1) about it.
 module camroller_lift_noise
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t
@@ -10,7 +11,7 @@ module camroller_lift_noise
    implicit none
    private
 
-   public :: lift_noise_t, find_lift_noise
+   public :: lift_noise_t, find_lift_noise, find_outlier
 
    !> What is known of the noise of a table
    type :: lift_noise_t
@@ -35,7 +36,78 @@ module camroller_lift_noise
    !> Step in which the acceleration is looked at [rad]
    real(wp), parameter :: step = 0.25_wp*degree
 
+   !> Fourth differences about a row that is off by one; the sum of their squares [-]
+   real(wp), parameter :: pattern(-2:2) = [1.0_wp, -4.0_wp, 6.0_wp, -4.0_wp, 1.0_wp], pattern_squares = 70.0_wp
+   !> A row is off where it is so by that many standard deviations of the noise of all; where the pattern leaves less than that part
+   !> of the differences about it, and less than half of what a bend of the lift would leave; and where it makes that part of the
+   !> largest acceleration [-]
+   real(wp), parameter :: deviations = 6.0_wp, most_left = 0.35_wp, of_bend = 0.5_wp, part_of_acceleration = 0.05_wp
+
 contains
+
+   !> Find the row of a table that is off most, if one is. A bend of the lift, where a ramp begins or ends, is none: its fourth
+   !> differences are (1, -2, 1) about a row or two neighbours.
+   pure subroutine find_outlier(angles, lifts, row, offset)
+      !> Cam angles, increasing [any]
+      real(wp), intent(in) :: angles(:)
+      !> Lifts [any]
+      real(wp), intent(in) :: lifts(:)
+      !> The row; 0 where none is off, or where rows are few or at uneven steps
+      integer, intent(out) :: row
+      !> How far it is off [as lifts]
+      real(wp), intent(out) :: offset
+
+      ! Second and fourth differences, those of the fourth about a row; a row's distance from its neighbours [as lifts]
+      real(wp), allocatable :: second(:), fourth(:)
+      real(wp) :: about(-2:2), off
+      ! Size of the noise, largest second difference of any row but those about the one looked at [as lifts]
+      real(wp) :: noise, largest
+      integer :: i, n
+
+      row = 0
+      offset = 0.0_wp
+      n = size(lifts)
+      if (n < fewest_rows) return
+      associate (steps => angles(2:) - angles(:n - 1))
+         if (maxval(steps) > most_uneven*minval(steps)) return
+      end associate
+      allocate (second(2:n - 1), fourth(3:n - 2))
+      second = lifts(3:) - 2.0_wp*lifts(2:n - 1) + lifts(:n - 2)
+      fourth = second(4:) - 2.0_wp*second(3:n - 2) + second(:n - 3)
+      noise = median(pack(abs(fourth), abs(fourth) > 0.0_wp))/(median_deviate*sqrt(pattern_squares))
+      do i = 5, n - 4
+         about = fourth(i - 2:i + 2)
+         off = sum(pattern*about)/pattern_squares
+         if (abs(off) <= max(deviations*noise, abs(offset))) cycle
+         if (norm2(about - off*pattern) > min(most_left*norm2(about), of_bend*left_by_bend(about))) cycle
+         largest = max(maxval(abs(second(:i - 2))), maxval(abs(second(i + 2:))))
+         if (2.0_wp*abs(off) < part_of_acceleration*largest) cycle
+         row = i
+         offset = off
+      end do
+   end subroutine find_outlier
+
+   !> What a bend at two neighbouring rows leaves of fourth differences.
+   pure function left_by_bend(about) result(left)
+      !> Differences about a row [any]
+      real(wp), intent(in) :: about(-2:2)
+      !> The size of what is left [any]
+      real(wp) :: left
+
+      real(wp), parameter :: bend(*) = [1.0_wp, -2.0_wp, 1.0_wp] ! [-]
+      ! Products with a bend at the row and at one beside it, what both explain of the square of the differences [any]
+      real(wp) :: here, beside, explained
+      integer :: i
+
+      here = sum(bend*about(-1:1))
+      explained = 0.0_wp
+      do i = -1, 1, 2
+         beside = sum(bend*about(i - 1:i + 1))
+         ! Inverse of ((6, -4), (-4, 6)), the products of the bends
+         explained = max(explained, (6.0_wp*here**2 + 8.0_wp*here*beside + 6.0_wp*beside**2)/20.0_wp)
+      end do
+      left = sqrt(max(0.0_wp, sum(about**2) - explained))
+   end function left_by_bend
 
    !> Find the noise of a lift's table.
    subroutine find_lift_noise(lift, noise)

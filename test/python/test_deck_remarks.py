@@ -29,8 +29,8 @@ def test_no_remark_on_a_deck_of_an_engine(camroller, deck):
 
 
 @pytest.mark.parametrize(("values", "words"), [
-    (["lubricant.viscosity_points_Pa_s=43,9,2.5"], r"lubricant.viscosity_points_Pa_s = 43 .*did you mean 43 mm\^2/s\?"),
-    (["lubricant.viscosity_points_Pa_s=43,9,2.5"], r"9 Pa s at 60 degC is unusual.*did you mean 9 mm\^2/s\?"),
+    (["lubricant.viscosity_points_Pa_s=43,9,2.5"], r"lubricant.viscosity_points_Pa_s = 43 .*did you mean 0.043 Pa s, which is 43 mPa s, or 43 mm\^2/s\?"),
+    (["lubricant.viscosity_points_Pa_s=43,9,2.5"], r"9 Pa s at 60 degC is unusual.*did you mean 0.009 Pa s, which is 9 mPa s, or 9 mm\^2/s\?"),
     (["roller.mass_kg=9"], r"roller.mass_kg = 9 .*did you mean 0.009 kg\?"),
     (["materials.cam_modulus_GPa=170000"], r"cam_modulus_GPa = 170000 .*did you mean 170 GPa\?"),
     (["cam_bearings.radial_clearance_um=0.0475"], r"radial_clearance_um = 0.0475 .*did you mean 47.5 um\?"),
@@ -43,6 +43,115 @@ def test_no_remark_on_a_deck_of_an_engine(camroller, deck):
 def test_an_unusual_value_gives_a_remark(camroller, values, words):
     remarks = remarks_of(camroller, "decks/thesis.nml", *values)
     assert any(re.search(words, remark) for remark in remarks), remarks
+
+
+@pytest.mark.parametrize(("deck", "value", "words"), [
+    ("dynamics", "dynamics.finger_stiffness_N_m=5e4", "finger_stiffness_N_m = 50000 is unusual: engines have 1000000 to 1e9 N/m; did you mean 5e7 N/m?"),
+    ("four_cylinder", "engine.displacement_cm3=2", "displacement_cm3 = 2 is unusual: engines have 40 to 20000 cm3; did you mean 2000 cm3?"),
+    ("lash_adjuster", "lash_adjuster.gap_um=0.005", "gap_um = 0.005 is unusual: engines have 1 to 25 um; did you mean 5 um?"),
+    ("lash_adjuster", "spring_surge.damping_ratio=0.5", "damping_ratio = 0.5 is unusual: engines have 0.001 to 0.1; did you mean 0.005, which is 0.5 %?"),
+])
+def test_numbers_of_a_flexible_train_and_of_an_engine_have_usual_ranges(camroller, deck, value, words):
+    assert any(words in remark for remark in remarks_of(camroller, f"decks/{deck}.nml", value))
+
+
+def test_every_number_of_a_flexible_train_and_of_an_engine_has_a_usual_range(camroller):
+    page = subprocess.run([camroller, "defaults", "--markdown"], capture_output=True, text=True, cwd=ROOT, check=True).stdout
+    for group in ("dynamics", "spring_surge", "lash_adjuster", "engine"):
+        rows = re.search(rf"\n#+ &?`?&?{group}`?\n(.*?)\n#", page, re.S)[1].splitlines()
+        numbers = [row for row in rows if re.search(r"\| number, ", row)]
+        assert numbers
+        # an eccentricity is a fraction of the gap, all of which is usual
+        assert [row for row in numbers if "usually" not in row and "`eccentricity`" not in row] == []
+
+
+@pytest.mark.parametrize(("value", "words"), [
+    ("operating_point.oil_temperature_degC=116", "116 degC, is 21 K above all points that are given, 25 to 95 degC: the viscosity, "),
+    ("operating_point.oil_temperature_degC=114", None),
+    ("operating_point.oil_temperature_degC=4", "4 degC, is 21 K below all points"),
+    ("operating_point.oil_temperature_degC=6", None),
+])
+def test_oil_far_from_its_viscosity_points_gives_a_remark_in_check_and_result(camroller, tmp_path, value, words):
+    remarks = remarks_of(camroller, "decks/dynamics.nml", value)
+    assert remarks == [] if words is None else len(remarks) == 1 and words in remarks[0], remarks
+    result = subprocess.run([camroller, "run", "decks/thesis.nml", "--no-sweep", "--set", value, "-o", tmp_path / "a.h5"],
+                            cwd=ROOT, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
+    assert ("all points that are given" in result.stderr) == (words is not None)
+
+
+def test_of_a_swept_temperature_the_farthest_from_all_points_is_named(camroller):
+    remarks = remarks_of(camroller, "decks/thesis.nml", "sweep.values_2=-20,60,150")
+    assert len(remarks) == 1 and "150 degC, is 55 K above" in remarks[0], remarks
+
+
+@pytest.mark.parametrize(("value", "words"), [
+    ("sweep.values_2=90,149", None),
+    ("sweep.values_2=-11,90", "-11 degC, is 51 K below all points that are given, 40 to 100 degC"),
+])
+def test_a_data_sheet_has_two_points(camroller, value, words):
+    remarks = remarks_of(camroller, "decks/four_cylinder.nml", value)
+    assert remarks == [] if words is None else any(words in remark for remark in remarks), remarks
+
+
+def test_coefficients_over_the_temperature_have_points_too(camroller):
+    points = ["lubricant.pressure_viscosity_temperatures_degC=50,80", "lubricant.pressure_viscosity_points_per_GPa=20,17"]
+    deck = (ROOT / "decks/dynamics.nml").read_text(encoding="utf-8")
+    assert "pressure_viscosity_coefficient_per_GPa" in deck
+    text = re.sub(r"\n *pressure_viscosity_coefficient_per_GPa *= *[0-9.]+", "", deck)
+    remarks = subprocess.run([camroller, "check", "-", *(word for point in points for word in ("--set", point)),
+                              "--set", "operating_point.oil_temperature_degC=102"], input=text, capture_output=True, text=True,
+                             cwd=ROOT / "decks", check=True).stderr
+    assert "102 degC, is 22 K above all points that are given, 50 to 80 degC: the pressure-viscosity coefficient" in remarks
+
+
+def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
+    rows = [line.split() for line in (ROOT / "decks/tables/cylinder_pressure.txt").read_text().splitlines() if line.strip()[:1].isdigit()]
+    table = tmp_path / "pressure.txt"
+    table.write_text("".join(f"{angle} {float(bar) * 1e5:.0f}\n" for angle, bar in rows))
+    remarks = remarks_of(camroller, "decks/three_cam_head.nml", f"gas_force.table={table}")
+    assert len(remarks) == 1, remarks
+    assert f"{table}: a largest pressure of 501500 MPa is unusual: engines have 0.002 to 30 MPa" in remarks[0]
+    assert remarks[0].endswith("; is 'pressure_unit' right? Usual with 'Pa'")
+    assert remarks_of(camroller, "decks/three_cam_head.nml", f"gas_force.table={table}", "gas_force.pressure_unit=Pa") == []
+
+
+def shifted_table(path, row, shift, kink=0.0):
+    """The lift table of the decks, a row of it off by some millimetres, and slower by some of them in each row from there on."""
+    rows = [line.split() for line in (ROOT / "decks/tables/polynomial_lift.txt").read_text().splitlines() if line.strip()[:1].isdigit()]
+    lifts = [float(lift) for _, lift in rows]
+    lifts[row] += shift
+    lifts = [max(0.0, lift - kink * max(0, number - row)) for number, lift in enumerate(lifts)]
+    lifts[-1] = 0.0
+    path.write_text("".join(f"{angle} {lift:.6f}\n" for (angle, _), lift in zip(rows, lifts)))
+    return path, rows[row][0]
+
+
+@pytest.mark.parametrize("row", [20, 40, 78, 130])
+@pytest.mark.parametrize("shift", [0.003, -0.004])
+def test_a_row_of_a_lift_table_that_is_off_is_named(camroller, tmp_path, row, shift):
+    table, angle = shifted_table(tmp_path / "lift.txt", row, shift)
+    remarks = remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}")
+    assert len(remarks) == 1 and f"{table}:{row + 1}: " in remarks[0] and f" mm at {angle} degrees does not go with" in remarks[0], remarks
+    given, led = map(float, re.search(r": ([\d.]+) mm at .* lead to ([\d.]+) mm", remarks[0]).groups())
+    # the curvature of the lift itself is part of what is taken for the shift
+    assert given - led == pytest.approx(shift, rel=0.02)
+
+
+@pytest.mark.parametrize("kink", [0.001, 0.003, 0.01])
+def test_a_bend_of_a_lift_table_is_no_row_that_is_off(camroller, tmp_path, kink):
+    table, _ = shifted_table(tmp_path / "lift.txt", 110, 0.0, kink=kink)
+    result = subprocess.run([camroller, "check", "decks/tabulated_lift.nml", "--set", f"lift.table={table}"], capture_output=True,
+                            text=True, cwd=ROOT, check=False)
+    assert result.returncode in (0, 4) and "does not go with" not in result.stderr, result.stderr
+
+
+def test_an_undercut_by_a_row_that_is_off_names_the_row(camroller, tmp_path):
+    table, _ = shifted_table(tmp_path / "lift.txt", 78, 0.02)
+    result = subprocess.run([camroller, "check", "decks/tabulated_lift.nml", "--set", f"lift.table={table}"], capture_output=True,
+                            text=True, cwd=ROOT, check=False)
+    assert result.returncode == 4 and "cam undercut" in result.stderr
+    assert f"remark: {table}:79: " in result.stderr and result.stderr.index("cam undercut") < result.stderr.index(":79: ")
 
 
 def refusal_of(camroller, *values):
@@ -210,3 +319,13 @@ def test_a_pressure_above_the_range_of_the_viscosity_law_gives_a_remark(camrolle
     assert result.returncode == 0, result.stderr
     found = [line for line in result.stderr.splitlines() if "of viscosity over pressure holds" in line]
     assert not found if words is None else len(found) == 1 and words in found[0]
+
+
+def test_what_is_constant_has_no_error_over_its_range(camroller, tmp_path):
+    """A boundary coefficient that is 0.2 at every point of its table has a range of rounding."""
+    deck = tmp_path / "deck.nml"
+    deck.write_text((ROOT / "decks/thesis.nml").read_text(encoding="utf-8") + "&boundary_law law = 'table' speed_points_m_s = 0.01, 1\n"
+                    "temperature_points_degC = 20, 120 coefficient_points = 0.2, 0.2, 0.2, 0.2 /\n", encoding="utf-8")
+    result = subprocess.run([camroller, "run", deck, "--no-sweep", "-o", tmp_path / "a.h5"], cwd=ROOT, capture_output=True, text=True,
+                            check=False)
+    assert result.returncode == 0 and "extremes did not reach" not in result.stderr, result.stderr

@@ -1,0 +1,172 @@
+!> Remarks on the tables of a deck: in another unit, over another angle, with noise, with a row that does not go with those beside
+!> it.
+!>
+!> In: settings and a table. Out: sentences. Nothing is refused for them.
+module camroller_deck_table_remarks
+   use camroller_deck_tables, only : get_lift_table
+   use camroller_kinds, only : wp
+   use camroller_lift, only : lift_t
+   use camroller_lift_noise, only : find_lift_noise, find_outlier, lift_noise_t
+   use camroller_mistakes, only : add_line, line_t
+   use camroller_number_text, only : integer_text, number_text
+   use camroller_settings, only : get_word, has_group, settings_t, take
+   use camroller_table_file, only : table_t
+   use camroller_units, only : find_unit, pressure_unit_names, to_si, unit_t
+   implicit none
+   private
+
+   public :: remark_lift, remark_pressure, remark_rows
+
+   !> Digits of numbers in sentences
+   integer, parameter :: digits = 6
+   !> Usual lengths of an event [deg of cam angle], and usual lifts [m]
+   real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
+   !> Usual largest magnitudes of a gauge pressure: from pulses in a manifold to a truck's engine under full load [Pa]
+   real(wp), parameter :: usual_pressure(2) = [2.0e3_wp, 3.0e7_wp]
+   !> Powers of ten between a table's unit and another one; nearer ones first
+   integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
+
+contains
+
+   !> A lift table in another unit, or over another angle.
+   subroutine remark_lift(settings, group, table, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group of the lift
+      character(len=*), intent(in) :: group
+      !> Its table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(unit_t) :: unit
+      logical :: is_there
+      ! Largest lift [m]; length of the event [deg]
+      real(wp) :: largest, length
+      character(len=:), allocatable :: words
+      integer :: i
+
+      if (.not. allocated(table%x) .or. get_word(settings, group, "law") /= "table") return
+      if (size(table%x) == 0) return
+      call find_unit(get_word(settings, group, "table_unit"), unit, is_there)
+      largest = to_si(unit, maxval(table%y))
+      if (largest < usual_lift(1) .or. largest > usual_lift(2)) then
+         words = ""
+         do i = 1, size(slips)
+            if (largest*10.0_wp**slips(i) < usual_lift(1) .or. largest*10.0_wp**slips(i) > usual_lift(2)) cycle
+            words = "; is 'table_unit' right?"
+         end do
+         call add_line(remarks, table%path//": a largest lift of "//number_text(1.0e3_wp*largest, digits)// &
+            & " mm is unusual: engines have 1 to 25 mm"//words)
+      end if
+      call remark_noise(settings, group, table, remarks)
+      length = table%x(min(size(table%x), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)) &
+         & - table%x(max(1, findloc(table%y > 0.0_wp, .true., dim=1) - 1))
+      if (length >= usual_event(1) .and. length <= usual_event(2)) return
+      words = ""
+      if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = &
+         & "; is the angle that of the crankshaft? A table takes the cam's, half of it"
+      call add_line(remarks, table%path//": an event of "//number_text(length, digits)// &
+         & " degrees of cam angle is unusual: engines have 60 to 220"//words)
+   end subroutine remark_lift
+
+   !> A lift table whose noise makes up the acceleration.
+   subroutine remark_noise(settings, group, table, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group of the lift
+      character(len=*), intent(in) :: group
+      !> Its table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Growth of the acceleration that is worth a word [-]
+      real(wp), parameter :: large = 1.1_wp
+      type(lift_t) :: lift
+      type(lift_noise_t) :: noise
+
+      lift%law = "table"
+      call take(settings, group, "smoothing_um", lift%smoothing)
+      call get_lift_table(settings, group, table, lift%table_angle, lift%table_lift)
+      call find_lift_noise(lift, noise)
+      if (.not. noise%is_known .or. lift%smoothing >= noise%noise) return
+      if (all(abs(noise%given) <= large*abs(noise%smoothed))) return
+      call add_line(remarks, table%path//": the lift has noise of about "//number_text(1.0e6_wp*noise%noise, 2)// &
+         & " um, which makes its second derivative "//number_text(1.0e3_wp*noise%given(1), 3)//" to "// &
+         & number_text(1.0e3_wp*noise%given(2), 3)//" mm/rad^2; with smoothing_um = "//number_text(1.0e6_wp*noise%noise, 2)// &
+         & " in &"//group//" it is "//number_text(1.0e3_wp*noise%smoothed(1), 3)//" to "// &
+         & number_text(1.0e3_wp*noise%smoothed(2), 3)//". Loads and the speed at which contact is lost follow it")
+   end subroutine remark_noise
+
+   !> A row of a lift table that does not go with its neighbours.
+   subroutine remark_rows(settings, group, table, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group of the lift
+      character(len=*), intent(in) :: group
+      !> Its table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: row
+      ! How far it is off [unit of the table]
+      real(wp) :: offset
+      character(len=:), allocatable :: unit
+
+      if (.not. allocated(table%x)) return
+      if (size(table%x) == 0 .or. get_word(settings, group, "law") /= "table") return
+      call find_outlier(table%x, table%y, row, offset)
+      if (row == 0) return
+      unit = " "//get_word(settings, group, "table_unit")
+      call add_line(remarks, table%path//":"//integer_text(table%line(row))//": "//number_text(table%y(row), 8)//unit// &
+         & " at "//number_text(table%x(row), digits)//" degrees does not go with the rows beside it, which lead to "// &
+         & number_text(table%y(row) - offset, 8)//unit//": is it a slip? One such row changes acceleration, loads and "// &
+         & "pressure, and bends the cam, up to an undercut")
+   end subroutine remark_rows
+
+   !> A table of cylinder pressure in another unit.
+   subroutine remark_pressure(settings, table, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(unit_t) :: unit
+      logical :: is_there
+      ! Largest magnitude [unit of the table], [Pa]
+      real(wp) :: largest, pressure
+      character(len=:), allocatable :: words
+      integer :: i
+
+      if (.not. has_group(settings, "gas_force") .or. .not. allocated(table%y)) return
+      if (size(table%x) == 0) return
+      largest = maxval(abs(table%y))
+      call find_unit(get_word(settings, "gas_force", "pressure_unit"), unit, is_there)
+      pressure = to_si(unit, largest)
+      if (is_usual_pressure(pressure) .or. .not. largest > 0.0_wp) return
+      words = ""
+      do i = 1, size(pressure_unit_names)
+         call find_unit(trim(pressure_unit_names(i)), unit, is_there)
+         if (.not. is_usual_pressure(to_si(unit, largest))) cycle
+         if (words == "") words = "; is 'pressure_unit' right? Usual with '"//trim(pressure_unit_names(i))//"'"
+         if (index(words, "'"//trim(pressure_unit_names(i))//"'") == 0) words = words//", '"//trim(pressure_unit_names(i))//"'"
+      end do
+      call add_line(remarks, table%path//": a largest pressure of "//number_text(1.0e-6_wp*pressure, digits)// &
+         & " MPa is unusual: engines have 0.002 to 30 MPa"//words)
+   end subroutine remark_pressure
+
+   !> Is a largest pressure usual?
+   elemental function is_usual_pressure(pressure) result(verdict)
+      !> The pressure [Pa]
+      real(wp), intent(in) :: pressure
+      !> Is it?
+      logical :: verdict
+
+      verdict = pressure >= usual_pressure(1) .and. pressure <= usual_pressure(2)
+   end function is_usual_pressure
+
+end module camroller_deck_table_remarks
