@@ -32,6 +32,8 @@ module camroller_series_extremes
       real(wp), allocatable :: event_load(:)
    end type extremes_t
 
+   !> Error over the value that is rounding [-]
+   real(wp), parameter :: rounding = 1.0e-12_wp
    !> States that are kept while extremes are searched for
    integer, parameter :: most_kept = 32
 
@@ -192,6 +194,8 @@ contains
                         & kept%relief(place), search%point, series, sense, sense*search%value, search%is_exact, of_value)
                      of_value = of_value + search%left
                   end if
+                  ! What is constant has a range of rounding, which no error is to be compared with
+                  if (of_value <= rounding*abs(search%value)) of_value = 0.0_wp
                end associate
             end do
          end do

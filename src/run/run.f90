@@ -18,7 +18,7 @@ module camroller_run
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_report, only : make_result, search_extremes, take_statistics
-   use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_extremes, missed_means
+   use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_extremes, missed_means, no_period
    use camroller_result, only : result_t, get_summary
    use camroller_running_in, only : aged_t, add_running_in, run_in
    implicit none
@@ -356,10 +356,35 @@ contains
       if (estimates(2) > accuracy) call add_remark(result%remarks, missed_means, &
          & "the means did not reach the accuracy asked for; the largest estimated error, of mean_"//trim(result%worst_mean)// &
          & ", is "//number_text(estimates(2), 2), estimates(2))
-      if (estimates(3) > accuracy) call add_remark(result%remarks, missed_extremes, &
-         & "the extremes did not reach the accuracy asked for; the largest estimated error, of "//trim(result%worst_extreme)// &
-         & ", is "//number_text(estimates(3), 2)//" of its range", estimates(3))
+      if (estimates(3) > accuracy .and. lacks_period(result)) then
+         call say_no_period(result)
+      else if (estimates(3) > accuracy) then
+         call add_remark(result%remarks, missed_extremes, "the extremes did not reach the accuracy asked for; the largest "// &
+            & "estimated error, of "//trim(result%worst_extreme)//", is "//number_text(estimates(3), 2)//" of its range", &
+            & estimates(3))
+      end if
    end subroutine judge_accuracy
+
+   !> Is a train of the case without a period?
+   pure function lacks_period(result) result(verdict)
+      !> The result
+      type(result_t), intent(in) :: result
+      !> Is one?
+      logical :: verdict
+
+      integer :: i
+
+      verdict = any([(result%remarks(i)%kind == no_period, i=1, size(result%remarks))])
+   end function lacks_period
+
+   !> Remark on extremes of a motion without a period: a smaller tolerance leads along other turns, and no accuracy changes that.
+   subroutine say_no_period(result)
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+
+      call add_remark(result%remarks, missed_extremes, "smallest and largest values are those of the turns computed: without a "// &
+         & "period they have no error that could be estimated")
+   end subroutine say_no_period
 
    !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
    !> errors of steps pile up where hardly anything damps, or means follow the sliding speed too strongly.
@@ -373,8 +398,11 @@ contains
 
       if (estimates(1) > numerics%tolerance*far_beyond) call say_far("the error", estimates(1))
       if (estimates(2) > numerics%tolerance*far_beyond) call say_far("the error of mean_"//trim(result%worst_mean), estimates(2))
-      if (estimates(3) > numerics%tolerance*far_beyond) call say_far("the error of the extremes of "// &
-         & trim(result%worst_extreme), estimates(3))
+      if (estimates(3) > numerics%tolerance*far_beyond .and. lacks_period(result)) then
+         call say_no_period(result)
+      else if (estimates(3) > numerics%tolerance*far_beyond) then
+         call say_far("the error of the extremes of "//trim(result%worst_extreme), estimates(3))
+      end if
 
    contains
 

@@ -105,6 +105,16 @@ def test_joint_tension_and_overspeed_give_remarks(tmp_path, camroller):
     if summary["period_cycles"] == 0:
         assert summary["summary_cycles"] == 40 and "is not periodic" in warnings
         assert summary["dynamic_load_max_deviation"] > 0
+        # turns of two tolerances part, and their difference over a range is no accuracy
+        assert "have no error that could be estimated" in warnings and "of the extremes of" not in warnings
+
+
+def test_a_valve_that_its_cam_hardly_lifts_has_a_remark(tmp_path, camroller):
+    """A finger's stiffness in N/mm takes all of the lift; a tenth of the usual one takes less than a tenth."""
+    _, warnings = run(camroller, DECK, tmp_path / "soft.h5", "sweep.values_1=900", "dynamics.finger_stiffness_N_m=5e4")
+    assert "the valve opens by 0 mm at 900 rev/min, where its cam would lift it by 9.5 mm" in warnings
+    _, warnings = run(camroller, DECK, tmp_path / "stiff.h5", "sweep.values_1=900", "dynamics.finger_stiffness_N_m=5e6")
+    assert "the valve opens by" not in warnings
 
 
 def test_check_prints_estimates_for_a_rigid_train(camroller):
