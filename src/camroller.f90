@@ -12,6 +12,7 @@ module camroller
       & run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread, simulation_t, outcome_t, &
       & inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation, shaft_simulation_t, shaft_outcome_t, &
       & start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, shaft_angle, shaft_values, &
+      & shaft_series, simulation_angle, simulation_series, simulation_values, &
       & torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual, &
       & needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t, bearing_asperity_t, &
       & belt_pull_t, bearing_heat_t, shaft_drag_t, friction_modifier_t, roller_profile_t, boundary_law_t, wear_t, &
@@ -38,7 +39,7 @@ module camroller
    public :: run_sweep, sweep_options_t, sweep_report_t, sweep_cases, sink_t, case_outcome_t, layout_t, monitor_t
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
    public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft
-   public :: cam_number, cam_place, shaft_angle, shaft_values
+   public :: cam_number, cam_place, shaft_angle, shaft_series, shaft_values, simulation_angle, simulation_series, simulation_values
    public :: torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
 
 end module camroller

@@ -38,10 +38,11 @@ module camroller_core
    use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
    use camroller_saved_simulation, only : save_simulation, restore_simulation, save_shaft, restore_shaft
    use camroller_shaft_simulation, only : shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, &
-      & cam_number, cam_place, shaft_angle, shaft_values
+      & cam_number, cam_place, shaft_angle, shaft_series, shaft_values
    use camroller_torque_list, only : torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
       & of_damping, of_bearings, of_residual
-   use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
+   use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, &
+      & simulation_angle, simulation_series, simulation_values
    implicit none
    private
 
@@ -56,7 +57,7 @@ module camroller_core
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
    public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft
-   public :: cam_number, cam_place, shaft_angle, shaft_values
+   public :: cam_number, cam_place, shaft_angle, shaft_series, shaft_values, simulation_angle, simulation_series, simulation_values
    public :: torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
 
 end module camroller_core

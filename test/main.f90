@@ -109,6 +109,7 @@ program main
    use test_saved_simulation, only : collect_saved_simulation
    use test_simulation_faults, only : collect_simulation_faults
    use test_shaft_simulation, only : collect_shaft_simulation
+   use test_shaft_faults, only : collect_shaft_faults
    use test_simulation_inputs, only : collect_simulation_inputs
    use test_quasi_static, only : collect_quasi_static
    use test_ode_barrier, only : collect_ode_barrier
@@ -294,6 +295,7 @@ contains
          new_testsuite("extremum", collect_extremum), &
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("shaft_simulation", collect_shaft_simulation), &
+         new_testsuite("shaft_faults", collect_shaft_faults), &
          new_testsuite("simulation", collect_simulation), &
          new_testsuite("saved_simulation", collect_saved_simulation), &
          new_testsuite("simulation_faults", collect_simulation_faults), &

@@ -10,13 +10,13 @@ module camroller_case_loop
    use, intrinsic :: iso_fortran_env, only : int64
 !$ use omp_lib, only : omp_get_num_procs, omp_get_max_threads
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, add_context, raise, kind_unfinished
+   use camroller_error, only : error_t, add_context, raise, kind_unfinished, kind_usage
    use camroller_blas_threads, only : check_blas_memory
    use camroller_case, only : case_t
    use camroller_case_record, only : begin_cases, end_cases, put_failure, put_result
    use camroller_case_runs, only : piece_of, run_total, runs_t
    use camroller_case_sink, only : name_layout, sink_t
-   use camroller_deck, only : deck_t, make_sweep_case
+   use camroller_deck, only : deck_t, is_read, make_sweep_case
    use camroller_deck_sweep, only : case_in_words, sweep_size, get_values_beside
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
@@ -122,6 +122,10 @@ contains
       class(monitor_t), pointer :: follower
       type(runs_t) :: runs
 
+      if (.not. is_read(deck)) then
+         call raise(error, kind_usage, "sweep_cases: the deck has not been read; call read_deck or parse_deck first")
+         return
+      end if
       follower => nobody
       if (present(monitor)) follower => monitor
       loop%threads = 0

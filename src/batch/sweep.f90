@@ -10,9 +10,10 @@ module camroller_sweep
    use camroller_case_loop, only : compute_cases, ended_all, ended_by_time, loop_t, set_threads
    use camroller_case_runs, only : missing_runs, run_total, runs_in_words, runs_t
    use camroller_case_writer, only : abandon_cases, case_writer_t, close_cases
-   use camroller_deck, only : add_places, deck_t
+   use camroller_deck, only : add_places, deck_t, is_read
    use camroller_deck_files, only : list_deck_files
    use camroller_earlier_result, only : complete_there, earlier_t, look_at_earlier, other_there, partial_there
+   use camroller_hdf5_status, only : keep_printing, printing_t, restore_printing
    use camroller_mistakes, only : line_t
    use camroller_monitor, only : monitor_t
    use camroller_new_file, only : check_place
@@ -55,18 +56,22 @@ contains
       class(monitor_t), pointer :: follower
       class(team_t), pointer :: processes
       type(study_t) :: study
+      type(printing_t) :: printing
 
       follower => nobody
       if (present(monitor)) follower => monitor
       processes => alone
       if (present(team) .and. .not. options%is_direct) processes => team
+      call keep_printing(printing)
       call begin_study(deck, path, options, study, error)
-      if (agreed_code(processes, error) /= 0) return
-      if (options%is_direct) then
-         call write_directly(deck, study, follower, processes, report, error)
-      else
-         call run_in_parts(deck, options, study, follower, processes, report, error)
+      if (agreed_code(processes, error) == 0) then
+         if (options%is_direct) then
+            call write_directly(deck, study, follower, processes, report, error)
+         else
+            call run_in_parts(deck, options, study, follower, processes, report, error)
+         end if
       end if
+      call restore_printing(printing)
    end subroutine run_sweep
 
    !> Make the one file of a sweep of its part files.
@@ -101,12 +106,16 @@ contains
       type(sweep_options_t), intent(in) :: options
       !> What is computed
       type(study_t), intent(out) :: study
-      !> Deck or usage error
+      !> Deck or usage error, the latter also for a deck that was not read
       type(error_t), allocatable, intent(out) :: error
 
       type(line_t), allocatable :: inputs(:)
       logical :: with_profiles
 
+      if (.not. is_read(deck)) then
+         call raise(error, kind_usage, "run_sweep: the deck has not been read; call read_deck or parse_deck first")
+         return
+      end if
       study%path = path
       call study_facts(deck, study%facts)
       call list_deck_files(deck, inputs)

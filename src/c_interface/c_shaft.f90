@@ -7,11 +7,10 @@ module camroller_c_shaft
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_catalogue, only : list_series, lobe_columns, camshaft_columns
    use camroller_result, only : quantity_t
    use camroller_simulation, only : inputs_t
    use camroller_shaft_simulation, only : shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, cam_number, &
-      & shaft_angle
+      & shaft_angle, shaft_series
    use camroller_saved_simulation, only : save_shaft, restore_shaft, shaft_block_size
    use camroller_torque_list, only : of_bearings
    use camroller_c_case, only : case_handle_t
@@ -27,9 +26,10 @@ module camroller_c_shaft
       type(shaft_simulation_t) :: shaft
       !> Series of the camshafts and of a cam's follower
       type(quantity_t), allocatable :: of_camshaft(:), of_follower(:)
-      type(shaft_outcome_t) :: outcome
-      !> Has it made a step?
-      logical :: has_outcome = .false.
+      !> What the last step gave, and room for the next one, which may fail
+      type(shaft_outcome_t) :: outcomes(2)
+      !> Place of the former; 0 before the first step
+      integer :: last = 0
    end type shaft_handle_t
 
    !> What a step gives, as the header has it
@@ -87,19 +87,13 @@ contains
       !> The error, if any
       type(error_t), allocatable, intent(in) :: error
 
-      type(quantity_t), allocatable :: series(:)
-      integer :: columns(2)
-
       call give_address(place, c_null_ptr)
       if (allocated(error)) then
          deallocate (made)
          return
       end if
-      call list_series(case, series)
-      columns = lobe_columns(case, 1)
-      made%of_follower = series(columns(1):columns(2))
-      columns = camshaft_columns(case)
-      made%of_camshaft = series(columns(1):columns(2))
+      call shaft_series(case, 1, made%of_follower)
+      call shaft_series(case, 0, made%of_camshaft)
       call give_address(place, c_loc(made))
    end subroutine give_shaft
 
@@ -163,6 +157,8 @@ contains
       type(error_t), allocatable :: failure
       ! The caller's pressures [Pa]
       real(c_double), pointer :: numbers(:, :)
+      ! Where the outcome goes
+      integer :: next
 
       call refuse_null(handle, "camroller_shaft", failure)
       call refuse_null(start, "start", failure)
@@ -175,14 +171,17 @@ contains
       end if
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
+         next = merge(2, 1, given%last == 1)
          if (c_associated(pressures)) then
             call c_f_pointer(pressures, numbers, [cam_number(given%shaft), 2])
-            call advance_shaft(given%shaft, angle, ends(1), ends(2), given%outcome, failure, numbers)
+            call advance_shaft(given%shaft, angle, ends(1), ends(2), given%outcomes(next), failure, numbers)
          else
-            call advance_shaft(given%shaft, angle, ends(1), ends(2), given%outcome, failure)
+            call advance_shaft(given%shaft, angle, ends(1), ends(2), given%outcomes(next), failure)
          end if
-         given%has_outcome = .not. allocated(failure)
-         if (given%has_outcome .and. c_associated(outcome)) call fill_outcome(given%outcome, filled)
+      end if
+      if (.not. allocated(failure)) then
+         given%last = next
+         if (c_associated(outcome)) call fill_outcome(given%outcomes(next), filled)
       end if
       call give_error(failure, error, code)
    end function shaft_step

@@ -100,7 +100,7 @@ contains
          call check_cam(given, int(cam), 1, failure)
          if (.not. allocated(failure)) call check_stepped(given, failure)
          if (.not. allocated(failure)) call check_outcome(outcome, failure)
-         if (.not. allocated(failure)) call give_outcome(given%outcome%followers(cam), outcome)
+         if (.not. allocated(failure)) call give_outcome(given%outcomes(given%last)%followers(cam), outcome)
       end if
       call give_error(failure, error, code)
    end function shaft_follower
@@ -134,7 +134,7 @@ contains
          if (.not. allocated(failure)) call check_stepped(given, failure)
       end if
       if (.not. allocated(failure)) then
-         call shaft_values(given%shaft, int(cam), given%outcome, found)
+         call shaft_values(given%shaft, int(cam), given%outcomes(given%last), found)
          if (room < size(found)) then
             call raise(failure, kind_usage, "there is room for fewer numbers than the "//integer_text(size(found))//" there are")
          else
@@ -190,7 +190,7 @@ contains
          end if
       end if
       if (.not. allocated(failure)) then
-         call shaft_values(given%shaft, int(cam), given%outcome, found)
+         call shaft_values(given%shaft, int(cam), given%outcomes(given%last), found)
          call c_f_pointer(value, number)
          number = found(position)
       end if
@@ -256,7 +256,7 @@ contains
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
-      if (.not. given%has_outcome) call raise(error, kind_usage, "the shaft has made no step yet, or its last one failed")
+      if (given%last == 0) call raise(error, kind_usage, "the shaft has made no step yet")
    end subroutine check_stepped
 
 end module camroller_c_shaft_values

@@ -8,9 +8,9 @@ module camroller_c_simulation
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_case, only : case_t
    use camroller_catalogue, only : follower_count, list_series
-   use camroller_follower_step, only : point_t
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, get_point, get_values
+   use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, get_values, &
+      & angle_of => simulation_angle
    use camroller_saved_simulation, only : save_simulation, restore_simulation, block_size
    use camroller_c_case, only : case_handle_t
    use camroller_c_structs, only : take_inputs, check_outcome, give_outcome, give_address, give_bytes
@@ -203,13 +203,11 @@ contains
       real(c_double) :: angle
 
       type(simulation_handle_t), pointer :: given
-      type(point_t) :: point
 
       angle = 0.0_c_double
       if (.not. c_associated(handle)) return
       call c_f_pointer(handle, given)
-      point = get_point(given%simulation)
-      angle = point%angle
+      angle = angle_of(given%simulation)
    end function simulation_angle
 
    !> Bring the roller to rest.

@@ -25,7 +25,7 @@ module camroller_deck
    implicit none
    private
 
-   public :: deck_t, override_t, add_override, read_deck, parse_deck, make_case, make_sweep_case, add_places, drop_sweep
+   public :: deck_t, override_t, add_override, read_deck, parse_deck, make_case, make_sweep_case, add_places, drop_sweep, is_read
 
    !> A deck without mistakes
    type :: deck_t
@@ -149,7 +149,7 @@ contains
       type(override_t), intent(in) :: overrides(:)
       !> The case
       type(case_t), intent(out) :: case
-      !> Deck error where the values do not fit the deck or each other
+      !> Deck error where the values do not fit the deck or each other; usage error where the deck was not read
       type(error_t), allocatable, intent(out) :: error
 
       type(settings_t) :: settings
@@ -157,6 +157,10 @@ contains
       type(mistakes_t) :: mistakes
       integer :: i
 
+      if (.not. is_read(deck)) then
+         call raise(error, kind_usage, "make_case: the deck has not been read; call read_deck or parse_deck first")
+         return
+      end if
       if (size(overrides) == 0) then
          call fill_case(deck%settings, deck%tables, case)
          return
@@ -172,6 +176,16 @@ contains
       if (allocated(error)) return
       call fill_case(settings, tables, case)
    end subroutine make_case
+
+   !> Has a deck been read?
+   pure function is_read(deck) result(verdict)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Has it?
+      logical :: verdict
+
+      verdict = allocated(deck%text)
+   end function is_read
 
    !> Case at a place of the deck's sweep.
    subroutine make_sweep_case(deck, case_number, case, error)

@@ -1,8 +1,8 @@
 !> Start of the HDF5 library, and conversion of its error stack to a short message.
 !>
-!> In: nothing. Out: `start_hdf5`, `raise_hdf5`. The library keeps its errors on a stack of its own; the entry that quotes the
-!> operating system is the most informative, so it is searched first. Walking the stack has no Fortran wrapper, hence the C
-!> interface.
+!> In: nothing. Out: `start_hdf5`, `raise_hdf5`; printing that is kept for a host. The library keeps its errors on a stack of its
+!> own; the entry that quotes the operating system is the most informative, so it is searched first. Walking the stack has no
+!> Fortran wrapper, hence the C interface.
 module camroller_hdf5_status
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_int64_t, c_loc, c_f_pointer, c_funloc, c_funptr, &
       & c_null_char, c_ptr, c_associated
@@ -11,7 +11,7 @@ module camroller_hdf5_status
    implicit none
    private
 
-   public :: start_hdf5, quiet_hdf5, raise_hdf5
+   public :: start_hdf5, quiet_hdf5, raise_hdf5, printing_t, keep_printing, restore_printing
 
    !> Letters kept of an entry of the error stack
    integer, parameter :: reason_length = 400
@@ -42,7 +42,32 @@ module camroller_hdf5_status
       character(kind=c_char) :: text(reason_length)
    end type reason_t
 
+   !> How the library prints errors of the calling thread
+   type :: printing_t
+      private
+      type(c_funptr) :: routine
+      type(c_ptr) :: data
+      !> Is it known?
+      logical :: is_known = .false.
+   end type printing_t
+
    interface
+      function c_get_printing(stack, routine, data) bind(C, name="H5Eget_auto2") result(status)
+         import :: c_int, c_int64_t, c_funptr, c_ptr
+         integer(c_int64_t), value :: stack
+         type(c_funptr), intent(out) :: routine
+         type(c_ptr), intent(out) :: data
+         integer(c_int) :: status
+      end function c_get_printing
+
+      function c_set_printing(stack, routine, data) bind(C, name="H5Eset_auto2") result(status)
+         import :: c_int, c_int64_t, c_funptr, c_ptr
+         integer(c_int64_t), value :: stack
+         type(c_funptr), value :: routine
+         type(c_ptr), value :: data
+         integer(c_int) :: status
+      end function c_set_printing
+
       function c_walk(stack, direction, visitor, reason) bind(C, name="H5Ewalk2") result(status)
          import :: c_int, c_int64_t, c_funptr, c_ptr
          integer(c_int64_t), value :: stack
@@ -80,6 +105,24 @@ contains
 
       call h5eset_auto_f(0, ignored)
    end subroutine quiet_hdf5
+
+   !> Note how the library prints errors, for a host that uses it as well.
+   subroutine keep_printing(kept)
+      !> How
+      type(printing_t), intent(out) :: kept
+
+      kept%is_known = c_get_printing(default_stack, kept%routine, kept%data) >= 0
+   end subroutine keep_printing
+
+   !> Let the library print errors as it did.
+   subroutine restore_printing(kept)
+      !> How
+      type(printing_t), intent(in) :: kept
+
+      integer(c_int) :: ignored
+
+      if (kept%is_known) ignored = c_set_printing(default_stack, kept%routine, kept%data)
+   end subroutine restore_printing
 
    !> Make an error out of what was tried and of what the library has to say; to be called right after the failing call.
    subroutine raise_hdf5(error, what)

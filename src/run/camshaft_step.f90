@@ -11,7 +11,7 @@ module camroller_camshaft_step
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_case, only : case_t
    use camroller_lubricant, only : oil_t, get_oil
-   use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
+   use camroller_follower_step, only : place_t, inputs_t, outcome_t, piece_number, inputs_between
    use camroller_part_series, only : bearing_count
    use camroller_shaft, only : shaft_t, set_drag, set_journal, in_common_frame, bearing_torques
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings, of_shaft_drag
@@ -47,8 +47,8 @@ module camroller_camshaft_step
 
    !> Room that a step needs and the next one uses again
    type :: step_room_t
-      !> What each follower remembered before the step, its error in it
-      type(point_t), allocatable :: before(:)
+      !> Where each follower was before the step, its error in it
+      type(place_t), allocatable :: before(:)
       type(failure_t), allocatable :: failures(:)
       !> Force on each cam and its torque over the step, shape (3, angle, cam) [N, N m]
       real(wp), allocatable :: nodes(:, :, :)
@@ -113,15 +113,10 @@ contains
       integer :: i, k, last
 
       last = ubound(room%nodes, 2)
+      call fit_outcome(outcome, shaft%count, bearing_count(case))
       outcome%mean_torques = 0.0_wp
       outcome%estimated_error = 0.0_wp
-      if (allocated(outcome%by_camshaft)) then
-         if (size(outcome%by_camshaft, 2) /= shaft%count) deallocate (outcome%by_camshaft)
-      end if
-      if (.not. allocated(outcome%by_camshaft)) allocate (outcome%by_camshaft(torque_count, shaft%count))
       outcome%by_camshaft = 0.0_wp
-      k = bearing_count(case)
-      if (k > 0 .and. .not. allocated(outcome%bearings)) allocate (outcome%bearings(k, shaft%count))
       do i = 1, size(outcome%followers)
          k = shaft%shafts(i)
          outcome%mean_torques = outcome%mean_torques + outcome%followers(i)%mean_torques
@@ -156,6 +151,23 @@ contains
       outcome%extreme_torque = [min(outcome%extreme_torque(1), outcome%torque_drive), &
          & max(outcome%extreme_torque(2), outcome%torque_drive)]
    end subroutine add_up
+
+   !> Give an outcome the shape of a shaft: another one may have filled it before.
+   pure subroutine fit_outcome(outcome, camshafts, bearings)
+      !> The outcome
+      type(shaft_outcome_t), intent(inout) :: outcome
+      !> Number of camshafts, and of the bearings of each that have series
+      integer, intent(in) :: camshafts, bearings
+
+      if (allocated(outcome%by_camshaft)) then
+         if (size(outcome%by_camshaft, 2) /= camshafts) deallocate (outcome%by_camshaft)
+      end if
+      if (.not. allocated(outcome%by_camshaft)) allocate (outcome%by_camshaft(torque_count, camshafts))
+      if (allocated(outcome%bearings)) then
+         if (any(shape(outcome%bearings) /= [bearings, camshafts])) deallocate (outcome%bearings)
+      end if
+      if (bearings > 0 .and. .not. allocated(outcome%bearings)) allocate (outcome%bearings(bearings, camshafts))
+   end subroutine fit_outcome
 
    !> Means of what is sampled at equal distances.
    pure subroutine take_means(samples, mean, coarse)

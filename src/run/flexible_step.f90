@@ -27,6 +27,7 @@ module camroller_flexible_step
    use camroller_flexible_follower, only : evaluate_follower
    use camroller_flexible_drive, only : drive_t, drive_train, take_spin, bring_to_rest
    use camroller_run, only : take_way_out
+   use camroller_step_judge, only : judge_state
    use camroller_short_piece, only : places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
    use camroller_follower_step, only : follower_t, inputs_t, outcome_t, piece_number, inputs_between, set_model, set_ramp, &
       & fill_outcome, joined, most_tries
@@ -124,7 +125,7 @@ contains
          if (each > 0 .and. .not. allocated(error)) call sample_nodes(follower%model, follower%drive, [left, right] - pi, &
             & nodes(:, (i - 1)*each:i*each - 1), error)
          ! On the way the model has followed the inputs
-         if (abs(follower%model%ramp%temperature_slope) > 0.0_wp) follower%point%oil_temperature = -1.0_wp
+         if (abs(follower%model%ramp%temperature_slope) > 0.0_wp) follower%is_to_be_set = .true.
          follower%model%ramp%is_moving = .false.
          if (allocated(error)) return
       end do
@@ -331,7 +332,7 @@ contains
       type(extremes_t), intent(inout) :: met
       !> The point
       type(sample_t), intent(out) :: sample
-      !> Convergence error
+      !> Convergence error; domain error of `judge_state`
       type(error_t), allocatable, intent(out) :: error
 
       ! State [state]; power on gas less that of the gallery [W]
@@ -354,6 +355,7 @@ contains
       sample%spin = 0.5_wp*model%roller_inertia*sample%state%contact%roller_spin**2
       sample%stored = sample%state%flexible%stored_energy - sample%spin
       call widen(met, model, sample%state)
+      call judge_state(model, sample%state, angle, error)
    end subroutine take_sample
 
    !> Force on the cam and torque at equally spaced angles of a piece, without its end.

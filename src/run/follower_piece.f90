@@ -22,6 +22,7 @@ module camroller_follower_piece
    use camroller_means, only : integrate_torques
    use camroller_run, only : take_way_out
    use camroller_short_piece, only : integrate_short
+   use camroller_step_judge, only : judge_piece
    use camroller_step_error, only : slip_error_t, judge_intervals, is_good, spin_error
    implicit none
    private
@@ -38,7 +39,7 @@ module camroller_follower_piece
       real(wp) :: sliding_speed = 0.0_wp
       !> Scale of the sliding speed, to which the tolerance is relative; zero before the start [m/s]
       real(wp) :: scale = 0.0_wp
-      !> Temperature of the oil that the model is set to, and that of the films solved beforehand [K]
+      !> Temperature of the oil at the end of the last step, and that of the films solved beforehand [K]
       real(wp) :: oil_temperature = 0.0_wp, film_temperature = 0.0_wp
       !> Cam speed of the films solved beforehand [rad/s]
       real(wp) :: film_speed = 0.0_wp
@@ -59,6 +60,8 @@ module camroller_follower_piece
       type(point_t) :: point
       !> Lobe shape
       integer :: lobe = 1
+      !> Is the oil of the model another one than that of the point? The next step sets it anew
+      logical :: is_to_be_set = .false.
       !> Mark of the model at the start
       integer(int64) :: mark = 0_int64
       !> The last piece of the last step; no step depends on it, but the next one uses its room
@@ -103,7 +106,7 @@ contains
       type(follower_t), intent(inout) :: follower
       !> The means
       type(piece_means_t), intent(out) :: means
-      !> Convergence error
+      !> Convergence error; domain error of `judge_piece`
       type(error_t), allocatable, intent(out) :: error
 
       type(nearby_t) :: nearby
@@ -136,6 +139,7 @@ contains
          end do
          if (.not. means%has_states) call integrate_torques(model, path, means%torques, error, means%extremes, means%error)
          means%error = means%error + errors%torque + spin_error(errors, model, path, spin)
+         if (.not. allocated(error)) call judge_piece(model, path, stops, error)
       end associate
    end subroutine cover_piece
 

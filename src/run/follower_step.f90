@@ -28,7 +28,7 @@ module camroller_follower_step
    private
 
    public :: follower_t, point_t, inputs_t, outcome_t, step_follower, piece_number, inputs_between
-   public :: set_model, set_ramp, fill_outcome, joined, most_tries
+   public :: set_model, set_ramp, fill_outcome, joined, most_tries, place_t, place_of, put_back
 
    !> What a host program gives at an end of a step
    type :: inputs_t
@@ -45,6 +45,13 @@ module camroller_follower_step
       !> Gauge pressure of the oil at the adjuster [Pa]
       real(wp) :: supply_pressure = 0.0_wp
    end type inputs_t
+
+   !> Where a follower is between two steps: what it remembers, and what its model is set to
+   type :: place_t
+      type(point_t) :: point
+      !> Cam speed [rad/s], its change with the cam angle [rad/s over rad]
+      real(wp) :: speed = 0.0_wp, speed_slope = 0.0_wp
+   end type place_t
 
    !> What one step gives
    type :: outcome_t
@@ -142,6 +149,35 @@ contains
       end if
    end subroutine step_follower
 
+   !> Where a follower is.
+   pure function place_of(follower) result(place)
+      !> The follower
+      type(follower_t), intent(in) :: follower
+      !> The place
+      type(place_t) :: place
+
+      place%point = follower%point
+      place%speed = follower%model%speed
+      place%speed_slope = follower%model%speed_slope
+   end function place_of
+
+   !> Put a follower back where it was, with its model at the inputs of then. Films solved beforehand stay what they are.
+   subroutine put_back(follower, place)
+      !> The follower
+      type(follower_t), intent(inout) :: follower
+      !> Where it was
+      type(place_t), intent(in) :: place
+
+      ! Oil that the model had had before has a law
+      type(error_t), allocatable :: ignored
+
+      follower%point = place%point
+      follower%model%speed_slope = place%speed_slope
+      call keep_films(follower%model, place%speed, place%point%oil_temperature, ignored)
+      ! Whatever else has been changed on the way, the next step sets it anew
+      follower%is_to_be_set = .true.
+   end subroutine put_back
+
    !> Does the roller rest on friction?
    pure function rests_at(direction) result(verdict)
       !> Direction of sliding, 0 at rest; not allocated where the sliding speed decides
@@ -225,12 +261,13 @@ contains
       logical :: has_films
 
       associate (point => follower%point)
-         if (same_bits(oil_temperature, point%oil_temperature) .and. .not. (may_solve .and. allocated(follower%model%ehl))) then
-            call set_speed(follower%model, speed)
-            return
+         if (same_bits(oil_temperature, point%oil_temperature) .and. .not. follower%is_to_be_set) then
+            if (.not. (may_solve .and. allocated(follower%model%ehl))) then
+               call set_speed(follower%model, speed)
+               return
+            end if
+            if (same_bits(speed, follower%model%speed) .and. same_bits(oil_temperature, point%film_temperature)) return
          end if
-         if (same_bits(speed, follower%model%speed) .and. same_bits(oil_temperature, point%oil_temperature) &
-            & .and. same_bits(oil_temperature, point%film_temperature)) return
          has_films = allocated(follower%model%ehl) .and. (.not. may_solve .or. (same_bits(oil_temperature, &
             & point%film_temperature) .and. abs(speed - sum(film_range)*0.5_wp*point%film_speed) &
             & <= 0.5_wp*(film_range(2) - film_range(1))*point%film_speed))
@@ -240,6 +277,7 @@ contains
             call set_operating_point(follower%model, speed, oil_temperature, error)
          end if
          point%oil_temperature = oil_temperature
+         follower%is_to_be_set = .false.
          if (has_films .or. .not. allocated(follower%model%ehl)) return
          point%film_temperature = oil_temperature
          point%film_speed = speed
@@ -294,7 +332,7 @@ contains
          call cover_piece(follower, means, error)
          if (present(nodes) .and. .not. allocated(error)) call fill_nodes(model, path, means, [point%angle, to] - pi, nodes, error)
          ! On the way the model has followed the inputs
-         if (model%ramp%is_moving .and. abs(model%ramp%temperature_slope) > 0.0_wp) point%oil_temperature = -1.0_wp
+         if (model%ramp%is_moving .and. abs(model%ramp%temperature_slope) > 0.0_wp) follower%is_to_be_set = .true.
          model%ramp%is_moving = .false.
          if (allocated(error)) return
          outcome%mean_torques = outcome%mean_torques + part*means%torques

@@ -1,11 +1,15 @@
 !> A number that tells one model from another, to be saved with what was computed with it.
 !>
-!> In: a model as a case makes it, how it is integrated. Out: the mark. What no state follows is not in it.
+!> In: a model as a case makes it, the case. Out: the mark. What no state follows is not in it; what steps may meet at other
+!> temperatures and angles than the states are at is: the laws of the oil and of boundary friction, the table of gas pressure.
 module camroller_model_mark
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_case, only : numerics_t
+   use camroller_asperity, only : boundary_friction_t, boundary_part_t, find_boundary_friction, set_boundary_temperature
+   use camroller_case, only : case_t
+   use camroller_error, only : error_t
    use camroller_flexible_parts, only : flexible_t
+   use camroller_lubricant, only : density_at, get_oil, lubricant_t, oil_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t, evaluate_state
    implicit none
@@ -17,15 +21,19 @@ module camroller_model_mark
    integer(int64), parameter :: beginning = 7237970109966541155_int64
    !> Cam angles at which states make up the mark
    integer, parameter :: places = 36
+   !> Temperatures at which the laws of oil and boundary friction do [K]
+   real(wp), parameter :: temperatures(*) = [250.0_wp, 275.0_wp, 300.0_wp, 325.0_wp, 350.0_wp, 375.0_wp, 400.0_wp, 425.0_wp]
+   !> Sliding speeds at which boundary friction does [m/s]
+   real(wp), parameter :: sliding_speeds(*) = [0.01_wp, 1.0_wp]
 
 contains
 
    !> Mark of a model: states over the turn, and how it is integrated.
-   subroutine mark_model(model, numerics, mark)
+   subroutine mark_model(model, case, mark)
       !> The model, at the operating point of its case
       type(model_t), intent(in) :: model
-      !> As the case has it
-      type(numerics_t), intent(in) :: numerics
+      !> The case
+      type(case_t), intent(in) :: case
       !> The mark
       integer(int64), intent(out) :: mark
 
@@ -44,9 +52,61 @@ contains
          parts(5*i - 4:5*i) = transfer([state%contact%load, state%contact%traction, state%spin_acceleration, &
             & state%torque_friction, state%torque_drive], parts)
       end do
-      mark = mixed([parts, transfer([numerics%accuracy, numerics%tolerance], parts), transfer(numerics%method, parts)])
+      associate (numerics => case%numerics)
+         mark = mixed([parts, transfer([numerics%accuracy, numerics%tolerance], parts), transfer(numerics%method, parts)])
+      end associate
+      call mark_oil(case%lubricant, mark)
+      if (allocated(model%boundary)) call mark_boundary(model%boundary, mark)
+      if (allocated(case%gas_force)) mark = mixed([mark, transfer([case%gas_force%valve_area, case%gas_force%angle, &
+         & case%gas_force%pressure], parts)])
       if (allocated(model%flexible)) call mark_train(model%flexible, mark)
    end subroutine mark_model
+
+   !> Take the laws of an oil into a mark.
+   subroutine mark_oil(lubricant, mark)
+      !> The oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> The mark
+      integer(int64), intent(inout) :: mark
+
+      type(oil_t) :: oil
+      ! Where the law has no value, which is part of the mark as well
+      type(error_t), allocatable :: error
+      integer(int64) :: parts(4*size(temperatures))
+      integer :: i
+
+      parts = 0_int64
+      do i = 1, size(temperatures)
+         call get_oil(lubricant, temperatures(i), oil, error)
+         if (allocated(error)) cycle
+         parts(4*i - 3:4*i) = transfer([oil%viscosity, oil%pressure_viscosity, oil%roelands_index, &
+            & density_at(lubricant, temperatures(i))], parts)
+      end do
+      mark = mixed([mark, parts])
+   end subroutine mark_oil
+
+   !> Take the law of boundary friction into a mark.
+   subroutine mark_boundary(boundary, mark)
+      !> Asperities and their friction
+      type(boundary_part_t), intent(in) :: boundary
+      !> The mark
+      integer(int64), intent(inout) :: mark
+
+      type(boundary_part_t) :: part
+      type(boundary_friction_t) :: friction
+      integer(int64) :: parts(size(sliding_speeds), size(temperatures))
+      integer :: i, k
+
+      part = boundary
+      do k = 1, size(temperatures)
+         call set_boundary_temperature(part, temperatures(k))
+         do i = 1, size(sliding_speeds)
+            call find_boundary_friction(part, sliding_speeds(i), 0.0_wp, 0.0_wp, friction)
+            parts(i, k) = transfer(friction%coefficient, 0_int64)
+         end do
+      end do
+      mark = mixed([mark, pack(parts, .true.)])
+   end subroutine mark_boundary
 
    !> Take a flexible train into a mark.
    subroutine mark_train(flexible, mark)

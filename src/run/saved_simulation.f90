@@ -30,7 +30,7 @@ module camroller_saved_simulation
    !> Added to what a block begins with where it is that of a shaft
    integer(int64), parameter :: of_shaft = 1_int64
    !> The format that this version writes and reads
-   integer(int64), parameter :: format_number = 4_int64
+   integer(int64), parameter :: format_number = 5_int64
 
 contains
 

@@ -9,19 +9,21 @@ module camroller_shaft_simulation
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_number_text, only : integer_text
    use camroller_case, only : case_t
-   use camroller_catalogue, only : camshaft_count, camshaft_values, follower_count
+   use camroller_catalogue, only : camshaft_columns, camshaft_count, camshaft_values, follower_count, list_series, lobe_columns
    use camroller_lubricant, only : oil_t, get_oil
    use camroller_follower_step, only : point_t, inputs_t, outcome_t
    use camroller_shaft, only : needs_turn, shaft_t, new_shaft
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
-      & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values
+      & check_angle, has_films, get_mark, get_point, set_point, get_values, simulation_place, put_simulation_back
    use camroller_model_mark, only : mixed
+   use camroller_part_series, only : bearing_count
+   use camroller_result, only : quantity_t
    use camroller_camshaft_step, only : shaft_outcome_t, step_room_t, make_room, add_up
    implicit none
    private
 
    public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft
-   public :: cam_number, cam_place, shaft_angle, shaft_values, get_shaft_mark, cam_point, set_shaft
+   public :: cam_number, cam_place, shaft_angle, shaft_series, shaft_values, get_shaft_mark, cam_point, set_shaft
 
    !> All followers of a case between two steps
    type :: shaft_simulation_t
@@ -121,7 +123,7 @@ contains
       if (.not. allocated(outcome%followers)) allocate (outcome%followers(size(shaft%followers)))
       associate (room => shaft%room)
          do cam = 1, size(shaft%followers)
-            room%before(cam) = get_point(shaft%followers(cam))
+            room%before(cam) = simulation_place(shaft%followers(cam))
          end do
          if (shaft%threads == 1) then
             do cam = 1, size(shaft%followers)
@@ -129,7 +131,7 @@ contains
                   & outcome%followers(cam), room%nodes(:, :, cam), room%failures(cam)%error, pressures)
             end do
          else
-            !$omp parallel do num_threads(shaft%threads) schedule(static, 1)
+            !$omp parallel do num_threads(min(shaft%threads, size(shaft%followers))) schedule(static, 1)
             do cam = 1, size(shaft%followers)
                call advance_cam(shaft%followers(cam), cam, cam_angle - shaft%shaft%phases(cam), [start, finish], &
                   & outcome%followers(cam), room%nodes(:, :, cam), room%failures(cam)%error, pressures)
@@ -153,7 +155,7 @@ contains
          call move_alloc(kept, shaft%followers)
       else
          do cam = 1, size(shaft%followers)
-            call put_back(shaft%followers(cam), shaft%room%before(cam))
+            call put_simulation_back(shaft%followers(cam), shaft%room%before(cam))
          end do
       end if
    end subroutine advance_shaft
@@ -228,8 +230,8 @@ contains
       if (allocated(shaft%followers)) cams = size(shaft%followers)
    end function cam_number
 
-   !> Lobe shape, camshaft and phase of a cam.
-   pure subroutine cam_place(shaft, cam, lobe, camshaft, phase)
+   !> Lobe shape, camshaft and phase of a cam; zeros where there is none of that number.
+   subroutine cam_place(shaft, cam, lobe, camshaft, phase, error)
       !> The shaft
       type(shaft_simulation_t), intent(in) :: shaft
       !> The cam, from 1
@@ -238,7 +240,17 @@ contains
       integer, intent(out) :: lobe, camshaft
       !> Angle by which the cam's event follows that of the first cam [rad]
       real(wp), intent(out) :: phase
+      !> Usage error where the shaft has no cam of that number
+      type(error_t), allocatable, intent(out), optional :: error
 
+      type(error_t), allocatable :: failure
+
+      lobe = 0
+      camshaft = 0
+      phase = 0.0_wp
+      call check_cam(shaft, cam, 1, "cam_place", failure)
+      if (present(error) .and. allocated(failure)) error = failure
+      if (allocated(failure)) return
       lobe = shaft%shaft%lobes(cam)
       camshaft = shaft%shaft%shafts(cam)
       phase = shaft%shaft%phases(cam)
@@ -254,25 +266,89 @@ contains
       angle = shaft%angle
    end function shaft_angle
 
+   !> Refuse a cam that a shaft has not.
+   subroutine check_cam(shaft, cam, smallest, caller, error)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The cam, and the smallest number that is allowed
+      integer, intent(in) :: cam, smallest
+      !> Who asks
+      character(len=*), intent(in) :: caller
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. allocated(shaft%followers)) then
+         call raise(error, kind_usage, caller//": the shaft has not been started; call start_shaft first")
+      else if (cam < smallest .or. cam > size(shaft%followers)) then
+         call raise(error, kind_usage, caller//": there is no cam "//integer_text(cam)//"; the shaft has "// &
+            & integer_text(size(shaft%followers)))
+      end if
+   end subroutine check_cam
+
+   !> Names, units and meanings of the values of a follower or of the camshafts.
+   subroutine shaft_series(case, cam, series)
+      !> The case that the shaft is started with
+      type(case_t), intent(in) :: case
+      !> Any cam, from 1; 0 for the camshafts
+      integer, intent(in) :: cam
+      !> The series in the order of `shaft_values`
+      type(quantity_t), allocatable, intent(out) :: series(:)
+
+      integer :: columns(2)
+
+      call list_series(case, series)
+      columns = camshaft_columns(case)
+      if (cam > 0) columns = lobe_columns(case, 1)
+      series = series(columns(1):columns(2))
+   end subroutine shaft_series
+
    !> Values of the series of one cam's follower, or of all camshafts, at the end of the last step.
-   subroutine shaft_values(shaft, cam, outcome, values)
+   subroutine shaft_values(shaft, cam, outcome, values, error)
       !> The shaft
       type(shaft_simulation_t), intent(in) :: shaft
       !> The cam, from 1; 0 for the camshafts
       integer, intent(in) :: cam
-      !> What the last step gave
+      !> What its last step gave
       type(shaft_outcome_t), intent(in) :: outcome
-      !> Values in the order of the series of a result [unit of the series]
+      !> Values in the order of `shaft_series`; none where there is an error [unit of the series]
       real(wp), allocatable, intent(out) :: values(:)
+      !> Usage error where there is no such cam, or the outcome is not that of a step of the shaft
+      type(error_t), allocatable, intent(out), optional :: error
 
-      if (cam > 0) then
+      type(error_t), allocatable :: failure
+
+      call check_cam(shaft, cam, 0, "shaft_values", failure)
+      if (.not. allocated(failure)) call check_outcome(shaft, outcome, failure)
+      if (present(error) .and. allocated(failure)) error = failure
+      if (allocated(failure)) then
+         allocate (values(0))
+      else if (cam > 0) then
          allocate (values(follower_count(shaft%case)))
          call get_values(shaft%followers(cam), shaft%case, outcome%followers(cam)%state, values)
-         return
+      else
+         allocate (values(camshaft_count(shaft%case)))
+         call camshaft_values(shaft%case, outcome%by_camshaft, values, outcome%bearings)
       end if
-      allocate (values(camshaft_count(shaft%case)))
-      call camshaft_values(shaft%case, outcome%by_camshaft, values, outcome%bearings)
    end subroutine shaft_values
+
+   !> Refuse an outcome that no step of a shaft has filled.
+   subroutine check_outcome(shaft, outcome, error)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The outcome
+      type(shaft_outcome_t), intent(in) :: outcome
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: fits
+
+      fits = allocated(outcome%followers) .and. allocated(outcome%by_camshaft)
+      if (fits) fits = size(outcome%followers) == size(shaft%followers) .and. size(outcome%by_camshaft, 2) == shaft%shaft%count &
+         & .and. (allocated(outcome%bearings) .eqv. bearing_count(shaft%case) > 0)
+      if (fits .and. allocated(outcome%bearings)) fits = size(outcome%bearings, 1) == bearing_count(shaft%case)
+      if (.not. fits) call raise(error, kind_usage, "shaft_values: the outcome is not that of a step of this shaft; call "// &
+         & "advance_shaft first")
+   end subroutine check_outcome
 
    !> Mark of a shaft: of its followers, where they stand, and of the bearings.
    subroutine get_shaft_mark(shaft, mark)

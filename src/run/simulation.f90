@@ -13,22 +13,24 @@ module camroller_simulation
    use camroller_accuracy, only : resolve_numerics, has_error_control, is_within, above_zero
    use camroller_case, only : case_t
    use camroller_model, only : model_t, set_operating_point
-   use camroller_catalogue, only : follower_values
+   use camroller_catalogue, only : follower_count, follower_values, list_series
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t
    use camroller_balance, only : find_balance
    use camroller_flexible_step, only : step_train, place_train, halt_train
-   use camroller_follower_step, only : follower_t, point_t, inputs_t, outcome_t, step_follower
+   use camroller_follower_step, only : follower_t, point_t, inputs_t, outcome_t, step_follower, place_t, place_of, put_back
    use camroller_spin, only : rolling_speed_at
    use camroller_cycle_start, only : choose_start
    use camroller_model_mark, only : mark_model
+   use camroller_result, only : quantity_t
    use camroller_run, only : build_model
    implicit none
    private
 
-   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
-   public :: prepare_simulation, place_simulation, check_angle, check_step, put_back, has_films
+   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, least_step
+   public :: prepare_simulation, place_simulation, check_angle, check_step, has_films, simulation_place, put_simulation_back
    public :: get_point, set_point, get_lobe, get_mark, get_values, is_started
+   public :: simulation_angle, simulation_series, simulation_values
 
    !> A follower between two steps
    type :: simulation_t
@@ -106,7 +108,7 @@ contains
       started%follower%point%oil_temperature = case%operating_point%oil_temperature
       evaluations = 0
       call choose_start(started%follower%model, unused, sliding_speed, started%follower%point%scale, least_scale, evaluations)
-      call mark_model(started%follower%model, case%numerics, started%follower%mark)
+      call mark_model(started%follower%model, case, started%follower%mark)
    end subroutine prepare_simulation
 
    !> Put a follower that is prepared at a cam angle, with the roller in its quasi-static balance there; a flexible train as
@@ -213,7 +215,7 @@ contains
       real(wp), intent(out), optional :: nodes(:, 0:)
 
       type(simulation_t), allocatable :: kept
-      type(point_t) :: before
+      type(place_t) :: before
 
       if (is_started(simulation)) then
          call check_step(simulation%follower%point%angle, cam_angle, error)
@@ -222,7 +224,7 @@ contains
       end if
       if (.not. allocated(error)) call check_inputs(simulation, start, finish, error)
       if (allocated(error)) return
-      before = simulation%follower%point
+      before = place_of(simulation%follower)
       ! Films solved beforehand may be replaced on the way
       if (has_films(simulation)) allocate (kept, source=simulation)
       if (allocated(simulation%follower%model%flexible)) then
@@ -231,8 +233,11 @@ contains
          call step_follower(simulation%follower, cam_angle, start, finish, outcome, error, nodes)
       end if
       if (.not. allocated(error)) return
-      call put_back(simulation, before)
-      if (allocated(kept)) simulation = kept
+      if (allocated(kept)) then
+         simulation = kept
+      else
+         call put_back(simulation%follower, before)
+      end if
    end subroutine advance_inputs
 
    !> Does a follower have films solved beforehand, which steps may replace?
@@ -245,17 +250,25 @@ contains
       verdict = allocated(simulation%follower%model%ehl)
    end function has_films
 
+   !> Where a follower is, its model included.
+   pure function simulation_place(simulation) result(place)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> The place
+      type(place_t) :: place
+
+      place = place_of(simulation%follower)
+   end function simulation_place
+
    !> Put a follower without films solved beforehand back where it was.
-   pure subroutine put_back(simulation, point)
+   subroutine put_simulation_back(simulation, place)
       !> The follower
       type(simulation_t), intent(inout) :: simulation
-      !> What it remembered there
-      type(point_t), intent(in) :: point
+      !> Where it was
+      type(place_t), intent(in) :: place
 
-      simulation%follower%point = point
-      ! Whatever the model is set to, the next step sets it anew
-      simulation%follower%point%oil_temperature = -1.0_wp
-   end subroutine put_back
+      call put_back(simulation%follower, place)
+   end subroutine put_simulation_back
 
    !> Bring the roller to rest, as in an engine that has stopped: the next step starts without spin. In a flexible train all other
    !> motion ends too.
@@ -286,6 +299,49 @@ contains
 
       point = simulation%follower%point
    end function get_point
+
+   !> Cam angle of a follower.
+   pure function simulation_angle(simulation) result(angle)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> The angle, 0 before the start [rad]
+      real(wp) :: angle
+
+      angle = simulation%follower%point%angle
+   end function simulation_angle
+
+   !> Names, units and meanings of the values of a follower.
+   subroutine simulation_series(case, series)
+      !> The case that the follower is started with
+      type(case_t), intent(in) :: case
+      !> The series in the order of `simulation_values`
+      type(quantity_t), allocatable, intent(out) :: series(:)
+
+      call list_series(case, series)
+      series = series(:follower_count(case))
+   end subroutine simulation_series
+
+   !> Values of the series of a follower at the end of its last step.
+   subroutine simulation_values(simulation, case, outcome, values, error)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> The case that it was started with
+      type(case_t), intent(in) :: case
+      !> What its last step gave
+      type(outcome_t), intent(in) :: outcome
+      !> Values in the order of `simulation_series`; none where there is an error [unit of the series]
+      real(wp), allocatable, intent(out) :: values(:)
+      !> Usage error where the follower has not been started
+      type(error_t), allocatable, intent(out) :: error
+
+      if (is_started(simulation)) then
+         allocate (values(follower_count(case)))
+         call get_values(simulation, case, outcome%state, values)
+      else
+         allocate (values(0))
+         call raise(error, kind_usage, "simulation_values: the follower has not been started; call start_simulation first")
+      end if
+   end subroutine simulation_values
 
    !> Values of the series of one follower at the end of its last step.
    subroutine get_values(simulation, case, state, values)
@@ -332,7 +388,8 @@ contains
 
       simulation%follower%model%speed_slope = 0.0_wp
       call set_operating_point(simulation%follower%model, point%film_speed, point%film_temperature, error)
-      call put_back(simulation, point)
+      simulation%follower%point = point
+      simulation%follower%is_to_be_set = .true.
    end subroutine set_point
 
    !> Shortest step at a cam angle.

@@ -19,6 +19,7 @@ contains
          new_unittest("a follower made of a block continues with the same bits, at another speed and with other oil", test_bits), &
          new_unittest("with films solved beforehand at an earlier speed, too", test_films), &
          new_unittest("with a flexible train, too", test_trains), &
+         new_unittest("a block of a case with other oil or gas pressure that no state shows is refused", test_other_cases), &
          new_unittest("a block that is damaged, short, of another case or of a shaft is refused", test_refusals) &
          ]
    end subroutine collect_saved_simulation
@@ -94,6 +95,47 @@ contains
             & contact%film_min, extremes%film_min, extremes%sliding_speed(2)], bits)
       end associate
    end function bits_of
+
+   !> Viscosity at temperatures other than that of the case; a pressure that differs in its last digit.
+   subroutine test_other_cases(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case, other
+      type(simulation_t) :: simulation
+      integer(int8), allocatable :: block(:)
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      call get_deck_case("decks/three_cam_head.nml", case, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      case%lubricant%temperature_law = "vogel"
+      case%lubricant%temperature_points = [313.15_wp, 343.15_wp, 373.15_wp]
+      case%lubricant%viscosity_points = [0.08_wp, 0.025_wp, 0.011_wp]
+      case%operating_point%oil_temperature = 313.15_wp
+      call start_simulation(simulation, case, pi, failure)
+      if (.not. allocated(failure)) call save_simulation(simulation, block, failure)
+      if (.not. allocated(failure)) call restore_simulation(simulation, case, block, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      do i = 1, 2
+         other = case
+         if (i == 1) then
+            ! the first point, at the temperature of the case, stays
+            other%lubricant%viscosity_points = [0.08_wp, 0.024_wp, 0.010_wp]
+         else
+            other%gas_force%pressure(5) = nearest(other%gas_force%pressure(5), 1.0_wp)
+         end if
+         call restore_simulation(simulation, other, block, failure)
+         call check(error, allocated(failure), merge("another oil was taken      ", "another pressure was taken ", i == 1))
+         if (allocated(error)) return
+         call check(error, index(failure%message, "another case") > 0, failure%message)
+         if (allocated(error)) return
+      end do
+   end subroutine test_other_cases
 
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error

@@ -1,10 +1,12 @@
 !> A follower driven from outside: what is refused, and what a refusal or a failure leaves.
 module test_simulation_faults
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan, ieee_positive_inf
-   use, intrinsic :: iso_fortran_env, only : int64
+   use, intrinsic :: iso_fortran_env, only : int8, int64
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller, only : wp, pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
-      & start_simulation, advance, kind_usage, kind_deck
+      & start_simulation, advance, kind_usage, kind_deck, kind_domain, deck_t, inputs_t, make_case, override_t, quantity_t, &
+      & find_quantity, restore_simulation, run_sweep, save_simulation, simulation_angle, simulation_series, simulation_values, &
+      & sweep_options_t, sweep_report_t
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case
    use test_simulation, only : tight_case
@@ -22,6 +24,9 @@ contains
          new_unittest("the second lobe shape can be driven, and one that the case lacks is refused", test_lobe), &
          new_unittest("backward steps and impossible angles or operating points are refused", test_refusal), &
          new_unittest("after a failed step the follower continues with the same bits as without it", test_failed_step), &
+         new_unittest("after a failed step the values by name and the saved bytes are those before it", test_values_stay), &
+         new_unittest("steps are errors where the case forbids lost contact or a film law outside its range", test_policies), &
+         new_unittest("values, decks and sweeps of nothing are errors", test_nothing), &
          new_unittest("a step in which the usual method gets nowhere is taken by another, as in a run", test_fallback), &
          new_unittest("the torque of the shortest possible step is that at its angle", test_smallest_step), &
          new_unittest("numerics of a case built without a deck are checked in runs and simulations", test_numerics) &
@@ -173,13 +178,10 @@ contains
       type(error_t), allocatable :: failure
       integer :: i, step
 
-      the_case = tight_case()
+      the_case = cold_case()
       the_case%numerics%method = "dormand_prince"
       ! the smaller, the longer it takes until a step has failed
       the_case%numerics%tolerance = 1.0e-5_wp
-      the_case%lubricant%temperature_law = "vogel"
-      the_case%lubricant%temperature_points = [313.15_wp, 343.15_wp, 373.15_wp]
-      the_case%lubricant%viscosity_points = [0.08_wp, 0.025_wp, 0.011_wp]
       do i = 1, size(failing, 2)
          call start_simulation(simulation, the_case, 1.0_wp, failure)
          if (.not. allocated(failure)) call start_simulation(other, the_case, 1.0_wp, failure)
@@ -200,6 +202,150 @@ contains
       end do
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine test_failed_step
+
+   !> A case whose oil has no viscosity where it is very cold.
+   function cold_case() result(the_case)
+      type(case_t) :: the_case
+
+      the_case = tight_case()
+      the_case%lubricant%temperature_law = "vogel"
+      the_case%lubricant%temperature_points = [313.15_wp, 343.15_wp, 373.15_wp]
+      the_case%lubricant%viscosity_points = [0.08_wp, 0.025_wp, 0.011_wp]
+   end function cold_case
+
+   !> The model has followed speed and oil of the step that fails, and is put back.
+   subroutine test_values_stay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(simulation_t) :: simulation, restored
+      type(outcome_t) :: outcome, failed
+      type(inputs_t) :: ends(2)
+      type(error_t), allocatable :: failure
+      integer(int8), allocatable :: block(:), again(:)
+      ! Numbers of the follower before and after [unit of the series]
+      real(wp), allocatable :: before(:), after(:)
+      type(quantity_t), allocatable :: series(:)
+
+      the_case = cold_case()
+      ends = [inputs_t(31.0_wp, 330.0_wp), inputs_t(35.0_wp, 340.0_wp)]
+      call start_simulation(simulation, the_case, 1.0_wp, failure)
+      if (.not. allocated(failure)) call advance(simulation, 2.8_wp, ends(1), ends(2), outcome, failure)
+      if (.not. allocated(failure)) call save_simulation(simulation, block, failure)
+      if (.not. allocated(failure)) call simulation_values(simulation, the_case, outcome, before, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call advance(simulation, 3.0_wp, inputs_t(70.0_wp, 330.0_wp), inputs_t(80.0_wp, 50.0_wp), failed, failure)
+      call check(error, allocated(failure), "a step that should fail does not")
+      if (allocated(error)) return
+      call save_simulation(simulation, again, failure)
+      call simulation_values(simulation, the_case, outcome, after, failure)
+      call check(error, all(block == again), "the saved bytes differ after a failed step")
+      if (allocated(error)) return
+      call check(error, all(transfer(before, [0_int64]) == transfer(after, [0_int64])), "values differ after a failed step")
+      if (allocated(error)) return
+      call simulation_series(the_case, series)
+      associate (velocity => before(find_quantity(series, "valve_velocity")))
+         call check(error, size(series) == size(before) .and. abs(velocity) > 0.0_wp, "values have no names")
+      end associate
+      if (allocated(error)) return
+      call check(error, abs(simulation_angle(simulation) - 2.8_wp) <= 0.0_wp, "the follower has moved")
+      if (allocated(error)) return
+      call restore_simulation(restored, the_case, block, failure)
+      call save_simulation(restored, again, failure)
+      call check(error, all(block == again), "a block that is restored is saved with other bytes")
+   end subroutine test_values_stay
+
+   !> Contact is lost near 158 degrees, and by the flexible train near 160; the film law is left at 243 degrees, as runs say. Steps
+   !> before have the bits of those of a case that only warns, and the step that fails moves nothing.
+   subroutine test_policies(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call try("decks/thesis.nml", "contact_policy", 6000.0_wp, [140.0_wp, 155.0_wp, 159.0_wp])
+      if (.not. allocated(error)) call try("decks/thesis.nml", "range_policy", 300.0_wp, [150.0_wp, 240.0_wp, 245.0_wp])
+      if (.not. allocated(error)) call try("decks/dynamics.nml", "contact_policy", 5500.0_wp, [60.0_wp, 120.0_wp, 360.0_wp])
+
+   contains
+
+      subroutine try(path, policy, speed, angles)
+         character(len=*), intent(in) :: path, policy
+         ! Speed [rev/min]; where it starts, until when nothing is forbidden, by when it is [deg]
+         real(wp), intent(in) :: speed, angles(3)
+         type(case_t) :: cases(2)
+         type(simulation_t) :: followers(2), before
+         type(outcome_t) :: outcomes(2)
+         type(error_t), allocatable :: failure
+         ! Cam angle [deg]
+         real(wp) :: angle
+         integer :: i
+
+         do i = 1, 2
+            call get_deck_case(path, cases(i), failure)
+            if (allocated(failure)) exit
+            cases(i)%operating_point%speed = speed*pi/30.0_wp
+            if (i == 1 .and. policy == "contact_policy") cases(i)%contact_policy = "stop"
+            if (i == 1 .and. policy == "range_policy") cases(i)%film%range_policy = "stop"
+            call start_simulation(followers(i), cases(i), angles(1)*degree, failure)
+            if (allocated(failure)) exit
+         end do
+         angle = angles(1)
+         do while (angle < angles(3) .and. .not. allocated(failure))
+            angle = angle + 1.0_wp
+            before = followers(1)
+            do i = 2, 1, -1
+               if (.not. allocated(failure)) call advance(followers(i), angle*degree, cases(i)%operating_point%speed, &
+                  & cases(i)%operating_point%oil_temperature, outcomes(i), failure)
+            end do
+            if (allocated(failure)) exit
+            call check(error, is_same(outcomes(1), outcomes(2)), "the policy changes bits: "//policy)
+            if (allocated(error)) return
+         end do
+         call expect(error, failure, kind_domain, policy)
+         if (allocated(error)) return
+         call check(error, angle > angles(2), "forbidden too early: "//failure%message)
+         if (allocated(error)) return
+         call check(error, same_bytes(before, followers(1)), "a step that is forbidden has moved the follower")
+      end subroutine try
+
+   end subroutine test_policies
+
+   !> Do two followers have the same block?
+   logical function same_bytes(one, other)
+      type(simulation_t), intent(in) :: one, other
+      integer(int8), allocatable :: blocks(:, :), block(:)
+      type(error_t), allocatable :: failure
+
+      call save_simulation(one, block, failure)
+      allocate (blocks(size(block), 2))
+      blocks(:, 1) = block
+      call save_simulation(other, block, failure)
+      blocks(:, 2) = block
+      same_bytes = all(blocks(:, 1) == blocks(:, 2))
+   end function same_bytes
+
+   subroutine test_nothing(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+      type(case_t) :: the_case
+      type(simulation_t) :: simulation
+      type(outcome_t) :: outcome
+      type(sweep_options_t) :: options
+      type(sweep_report_t) :: report
+      type(error_t), allocatable :: failure
+      ! Numbers of a follower [unit of the series]
+      real(wp), allocatable :: values(:)
+
+      call make_case(deck, none, the_case, failure)
+      call expect(error, failure, kind_usage, "read_deck")
+      if (allocated(error)) return
+      call run_sweep(deck, "nothing.h5", options, report, failure)
+      call expect(error, failure, kind_usage, "read_deck")
+      if (allocated(error)) return
+      call simulation_values(simulation, the_case, outcome, values, failure)
+      call expect(error, failure, kind_usage, "start_simulation")
+   end subroutine test_nothing
 
    !> At this tolerance rounding keeps the usual method from some of these steps.
    subroutine test_fallback(error)

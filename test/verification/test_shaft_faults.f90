@@ -1,0 +1,141 @@
+!> All followers of a case driven together: outcomes of other shafts, and what is refused without harm.
+module test_shaft_faults
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller, only : wp, error_t, case_t, inputs_t, shaft_simulation_t, shaft_outcome_t, kind_usage, start_shaft, &
+      & advance_shaft, cam_place, shaft_values
+   use deck_cases, only : get_deck_case
+   implicit none
+   private
+
+   public :: collect_shaft_faults
+
+contains
+
+   subroutine collect_shaft_faults(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("an outcome serves one shaft after another, with more bearings, with fewer and with none", test_reused), &
+         new_unittest("a cam that is not there, and an outcome of no step, are errors", test_values_refused) &
+         ]
+   end subroutine collect_shaft_faults
+
+   !> Inputs of a case that do not change.
+   pure function steady(the_case) result(inputs)
+      type(case_t), intent(in) :: the_case
+      type(inputs_t) :: inputs
+
+      inputs%speed = the_case%operating_point%speed
+      inputs%oil_temperature = the_case%operating_point%oil_temperature
+   end function steady
+
+   !> Report what went wrong, where something did.
+   logical function has_failed(failure, error)
+      type(error_t), allocatable, intent(in) :: failure
+      type(error_type), allocatable, intent(out) :: error
+
+      has_failed = allocated(failure)
+      if (has_failed) call test_failed(error, failure%message)
+   end function has_failed
+
+   !> Two bearings, then four, none with series and two again, against outcomes of their own.
+   subroutine test_reused(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: decks(4) = [character(len=14) :: "mixed_bearings", "three_cam_head", "thesis", &
+         & "mixed_bearings"]
+      integer, parameter :: bearings(4) = [2, 4, 0, 2]
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft, again
+      type(shaft_outcome_t) :: reused
+      type(error_t), allocatable :: failure
+      ! Numbers of the camshafts [unit of the series]
+      real(wp), allocatable :: values(:), expected(:)
+      integer :: i
+
+      do i = 1, size(decks)
+         call get_deck_case("decks/"//trim(decks(i))//".nml", the_case, failure)
+         if (has_failed(failure, error)) return
+         the_case%cam_bearings%by_bearing = bearings(i) > 0
+         call start_shaft(shaft, the_case, 0.0_wp, failure)
+         if (has_failed(failure, error)) return
+         again = shaft
+         call advance_shaft(shaft, 0.1_wp, steady(the_case), steady(the_case), reused, &
+            & failure)
+         if (has_failed(failure, error)) return
+         call shaft_values(shaft, 0, reused, values)
+         call step_afresh(again, the_case, expected, failure)
+         if (has_failed(failure, error)) return
+         call check(error, allocated(reused%bearings) .eqv. bearings(i) > 0, "bearings where there are none, or the reverse")
+         if (allocated(error)) return
+         if (allocated(reused%bearings)) call check(error, size(reused%bearings, 1), bearings(i))
+         if (allocated(error)) return
+         call check(error, size(values) == size(expected), "other series")
+         if (.not. allocated(error)) call check(error, &
+            & all(abs(values - expected) <= 0.0_wp), "the outcome used before has other values")
+         if (allocated(error)) return
+      end do
+   end subroutine test_reused
+
+   !> The first step of a shaft, into an outcome of its own.
+   subroutine step_afresh(shaft, the_case, values, failure)
+      type(shaft_simulation_t), intent(inout) :: shaft
+      type(case_t), intent(in) :: the_case
+      !> Numbers of the camshafts [unit of the series]
+      real(wp), allocatable, intent(out) :: values(:)
+      type(error_t), allocatable, intent(out) :: failure
+      type(shaft_outcome_t) :: fresh
+
+      call advance_shaft(shaft, 0.1_wp, steady(the_case), steady(the_case), fresh, failure)
+      if (.not. allocated(failure)) call shaft_values(shaft, 0, fresh, values, failure)
+   end subroutine step_afresh
+
+   subroutine test_values_refused(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft, unstarted
+      type(shaft_outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Numbers [unit of the series]; phase of a cam [rad]
+      real(wp), allocatable :: values(:)
+      real(wp) :: phase
+      integer :: lobe, camshaft, cam
+
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure)
+      if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure)
+      if (has_failed(failure, error)) return
+      do cam = 0, 1
+         call shaft_values(shaft, cam, outcome, values, failure)
+         call check_refusal("no step", "advance_shaft")
+         call shaft_values(shaft, cam, outcome, values)
+         if (.not. allocated(error)) call check(error, size(values), 0)
+         call shaft_values(unstarted, cam, outcome, values, failure)
+         call check_refusal("no start", "start_shaft")
+      end do
+      do cam = -1, 4, 5
+         call shaft_values(shaft, cam, outcome, values, failure)
+         call check_refusal("no cam", "there is no cam")
+      end do
+      do cam = 0, 4, 4
+         call cam_place(shaft, cam, lobe, camshaft, phase, failure)
+         call check_refusal("no cam", "there is no cam")
+         call cam_place(shaft, cam, lobe, camshaft, phase)
+         if (.not. allocated(error)) call check(error, lobe, 0)
+      end do
+      call cam_place(unstarted, 1, lobe, camshaft, phase, failure)
+      call check_refusal("no start", "start_shaft")
+
+   contains
+
+      !> The last call was refused, with a word in the message.
+      subroutine check_refusal(what, word)
+         character(len=*), intent(in) :: what, word
+
+         if (allocated(error)) return
+         call check(error, allocated(failure), what//" was not refused")
+         if (allocated(error)) return
+         call check(error, failure%kind == kind_usage .and. index(failure%message, word) > 0, failure%message)
+      end subroutine check_refusal
+
+   end subroutine test_values_refused
+
+end module test_shaft_faults
