@@ -24,6 +24,11 @@ extern "C" {
 int camroller_library_version(void);
 void camroller_library_version_text(char *buffer, size_t room);
 
+/* One thread for OpenBLAS, in the whole process, to be called before the first case: its own threads cost more than they bring,
+ * most of all beside those of the host, and with them last digits of numerical films depend on their number. 1 where that is done,
+ * 0 where the library of linear algebra is another one, or not found since it is linked statically: nothing is changed then. */
+int camroller_use_one_blas_thread(void);
+
 /* Kinds of errors: what calls return */
 enum {
    CAMROLLER_OK = 0,
@@ -121,7 +126,7 @@ int camroller_simulation_new(const camroller_case *self, int lobe, double cam_an
 /* Advance to a cam angle beyond the present one. A step that fails leaves the follower as it was, to the last bit. */
 int camroller_simulation_step(camroller_simulation *self, double cam_angle, const camroller_inputs *start,
                               const camroller_inputs *end, camroller_outcome *outcome, camroller_error *error);
-/* Number at the end of the last step, by the name of a follower's series */
+/* Number at the end of the last step that did not fail, by the name of a follower's series */
 int camroller_simulation_value(const camroller_simulation *self, const char *name, double *value, camroller_error *error);
 double camroller_simulation_angle(const camroller_simulation *self);
 /* The engine has stopped: the roller comes to rest, and the next step starts without spin; a flexible train comes to rest. */
@@ -164,7 +169,7 @@ int camroller_shaft_step(camroller_shaft *self, double cam_angle, const camrolle
                          const double *gas_pressures, camroller_shaft_outcome *outcome, camroller_error *error);
 /* What the last step gave for the follower of a cam, from 1 */
 int camroller_shaft_follower(const camroller_shaft *self, int cam, camroller_outcome *outcome, camroller_error *error);
-/* Numbers at the end of the last step: of the follower of a cam, from 1, or of the camshafts, 0. One by its name, or all in the
+/* Numbers at the end of the last step that did not fail: of the follower of a cam, from 1, or of the camshafts, 0. One by its name, or all in the
  * order of camroller_shaft_quantity, which gives name, unit and meaning of the number at a place, from 0, as
  * camroller_result_quantity does. */
 int camroller_shaft_value(const camroller_shaft *self, int cam, const char *name, double *value, camroller_error *error);

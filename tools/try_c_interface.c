@@ -86,6 +86,9 @@ static void test_version(void) {
    CHECK(strlen(small) == 2 && strncmp(small, text, 2) == 0);
    camroller_library_version_text(NULL, 10);
    camroller_library_version_text(text, 0);
+   /* whether the linear algebra is OpenBLAS is known to who built the library */
+   int is_done = camroller_use_one_blas_thread();
+   CHECK(is_done == 0 || is_done == 1);
 }
 
 static camroller_case *test_case(const char *path) {
@@ -312,7 +315,7 @@ static void test_shaft(const char *path, const camroller_case *other) {
    camroller_outcome follower = {.size = sizeof follower};
    camroller_cam cam = {.size = sizeof cam}, small_cam = {.size = 1};
    char name[64], unit[64], meaning[64], *texts[3] = {name, unit, meaning}, *nothing[3] = {NULL, NULL, NULL};
-   double value, sums[3], values[100], pressures[6] = {1e5, 2e5, 3e5, 1e5, 2e5, 3e5};
+   double value, kept, sums[3], values[100], pressures[6] = {1e5, 2e5, 3e5, 1e5, 2e5, 3e5};
    size_t bytes, count = 0;
    CHECK(camroller_case_from_file(path, &self, &error) == 0);
    REFUSED(CAMROLLER_USAGE, "'camroller_case'", camroller_shaft_new, NULL, 0.0, 1, &shaft);
@@ -378,6 +381,8 @@ static void test_shaft(const char *path, const camroller_case *other) {
    pressures[4] = INFINITY;
    REFUSED(CAMROLLER_USAGE, "cam 2", camroller_shaft_step, shaft, 1.3, &start, &end, pressures, &outcome);
    CHECK(camroller_shaft_angle(shaft) == 1.2);
+   /* calls that fail leave the numbers of the last step */
+   CHECK(camroller_shaft_value(shaft, 3, name, &kept, &error) == 0 && kept == value);
 
    bytes = camroller_shaft_save_size(shaft);
    CHECK(camroller_shaft_save_size(NULL) == 0);
@@ -420,17 +425,32 @@ static void test_other_kinds(const camroller_case *self) {
    camroller_case *own = NULL;
    camroller_result *result = NULL;
    camroller_simulation *simulation = NULL;
-   camroller_inputs start = inputs(30.0), fast = inputs(1e10);
+   camroller_inputs start = inputs(30.0), fast = inputs(1e10), cold = inputs(60.0);
+   double velocity, again;
    CHECK(camroller_case_copy(self, &own, &error) == 0);
    CHECK(camroller_case_set(own, "film.range_policy", "'stop'", &error) == 0);
    REFUSED(CAMROLLER_DOMAIN, "published range", camroller_case_run, own, &result);
    CHECK(result == NULL);
+   CHECK(camroller_simulation_new(own, 1, 3.0, &simulation, &error) == 0);
+   REFUSED(CAMROLLER_DOMAIN, "published range", camroller_simulation_step, simulation, 6.0, &start, &start, NULL);
+   CHECK(camroller_simulation_angle(simulation) == 3.0);
+   camroller_simulation_free(simulation);
+   CHECK(camroller_case_set(own, "film.range_policy", "'warn'", &error) == 0);
    CHECK(camroller_case_set(own, "numerics.method", "'dormand_prince'", &error) == 0);
    CHECK(camroller_simulation_new(own, 1, 1.0, &simulation, &error) == 0);
    CHECK(camroller_simulation_step(simulation, 4.0, &fast, &fast, NULL, &error) == CAMROLLER_CONVERGENCE);
    CHECK(error.code == CAMROLLER_CONVERGENCE && strstr(error.message, "deg") != NULL);
    CHECK(camroller_simulation_angle(simulation) == 1.0);
    CHECK(camroller_simulation_step(simulation, 4.0, &start, &start, NULL, &error) == 0);
+   camroller_simulation_free(simulation);
+   /* the model has followed speed and oil of a step that fails, and is put back */
+   CHECK(camroller_case_set(own, "numerics.method", "'automatic'", &error) == 0);
+   CHECK(camroller_simulation_new(own, 1, 1.0, &simulation, &error) == 0);
+   CHECK(camroller_simulation_step(simulation, 2.8, &start, &start, NULL, &error) == 0);
+   CHECK(camroller_simulation_value(simulation, "valve_velocity", &velocity, &error) == 0 && velocity != 0.0);
+   cold.oil_temperature = 50.0;
+   CHECK(camroller_simulation_step(simulation, 3.0, &start, &cold, NULL, &error) != 0);
+   CHECK(camroller_simulation_value(simulation, "valve_velocity", &again, &error) == 0 && again == velocity);
    camroller_simulation_free(simulation);
    camroller_case_free(own);
 }

@@ -4,6 +4,7 @@
 module camroller_c_case
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
    use camroller_kinds, only : wp
+   use camroller_blas_threads, only : use_one_blas_thread
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_version, only : version_number, version_text
    use camroller_case, only : case_t
@@ -50,6 +51,17 @@ contains
 
       call give_text(version_text, buffer, room)
    end subroutine library_version_text
+
+   !> One thread for OpenBLAS.
+   function use_one_thread() bind(C, name="camroller_use_one_blas_thread") result(is_done)
+      !> 1 where the library of linear algebra is OpenBLAS, 0 where it is another one or is not found, and nothing is changed
+      integer(c_int) :: is_done
+
+      logical :: is_found
+
+      call use_one_blas_thread(is_found)
+      is_done = merge(1_c_int, 0_c_int, is_found)
+   end function use_one_thread
 
    !> Case from the text of a deck.
    function case_from_text(text, folder, handle, error) bind(C, name="camroller_case_from_text") result(code)

@@ -5,7 +5,7 @@
 !> than there are cores. With another BLAS library nothing is changed. The routine is looked up at run time, so the program links
 !> with any BLAS; where OpenBLAS is linked statically the routine may not be found, and the environment variable
 !> OPENBLAS_NUM_THREADS has to be used instead. The setting applies to the whole process, so the library never makes it: the main
-!> program does.
+!> program does, and the package of Python and FMUs, which bring an OpenBLAS of their own.
 !>
 !> OpenBLAS maps one buffer for each thread that calls it at the same time, and, when it is loaded, one for each of its own threads.
 !> If it cannot map one, it tries again without end; a program therefore makes sure of the buffers before the first case.
@@ -62,11 +62,15 @@ module camroller_blas_threads
 contains
 
    !> Let OpenBLAS use one thread, where it is OpenBLAS: for all of the process, before the first case is run.
-   subroutine use_one_blas_thread()
+   subroutine use_one_blas_thread(is_found)
+      !> Is it?
+      logical, intent(out), optional :: is_found
+
       procedure(c_set_threads), pointer :: set_threads
       type(c_funptr) :: address
 
       address = find_routine("openblas_set_num_threads")
+      if (present(is_found)) is_found = c_associated(address)
       if (.not. c_associated(address)) return
       call c_f_procpointer(address, set_threads)
       call set_threads(1_c_int)
