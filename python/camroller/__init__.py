@@ -9,11 +9,12 @@ from __future__ import annotations
 import array
 import concurrent.futures
 import itertools
+import numbers
 import os
 from ctypes import c_double, create_string_buffer
 
 from ._library import (LIBRARY, Cam, CamrollerError, ConvergenceError, DeckError, DomainError, FileError, Handle, Inputs, Outcome,
-                       ShaftOutcome, UsageError, byref, call, list_texts)
+                       ShaftOutcome, UsageError, byref, call, encoded, list_texts)
 
 __all__ = ["Cam", "CamrollerError", "Case", "ConvergenceError", "DeckError", "DomainError", "FileError", "Inputs", "Outcome",
            "Quantity", "Result", "Shaft", "ShaftOutcome", "Simulation", "UsageError", "run", "run_cases", "__version__"]
@@ -38,41 +39,52 @@ class Quantity(tuple):
 
 
 def _word(value):
-    """A value as a deck has it: texts in quotes, lists parted by commas."""
+    """A value as a deck has it: texts in quotes, lists parted by commas. Numbers and arrays of numpy are what they hold."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
     if isinstance(value, bool):
         return ".true." if value else ".false."
     if isinstance(value, str):
         return value if value[:1] in ("'", '"') else f"'{value}'"
     if isinstance(value, (list, tuple)):
         return ", ".join(_word(part) for part in value)
-    return repr(float(value)) if not isinstance(value, int) else str(value)
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    raise TypeError(f"a value of a key is a number, a text, true or false, or a list of them, not {type(value).__name__}")
+
+
+def _path(path):
+    """A path for the library."""
+    if b"\0" in os.fsencode(path):
+        raise UsageError(f"a path has a null character in it: {path!r}")
+    return os.fsencode(path)
 
 
 class Case(Handle):
     """A case of the file of a deck; `Case.from_text` takes its text. `set` gives keys, named `group.key`, other values."""
 
     _kind = "case"
+    _instead = "; give other processes the path or the text of its deck, and the values that were set"
 
     def __init__(self, path, set=None):
-        self._take("case_from_file", os.fsencode(path))
+        self._take("case_from_file", _path(path))
         for key, value in (set or {}).items():
             self.set(key, value)
 
     @classmethod
     def from_text(cls, text, folder=None, set=None):
-        """A case of the text of a deck; paths of tables start at `folder`."""
-        case = cls._make("case_from_text", text.encode(), None if folder is None else os.fsencode(folder))
+        """A case of the text of a deck; paths of tables start at `folder`. A mark of the order of bytes at its beginning is skipped."""
+        case = cls._make("case_from_text", encoded(text.removeprefix("\ufeff"), "the text of a deck"),
+                         None if folder is None else _path(folder))
         for key, value in (set or {}).items():
             case.set(key, value)
         return case
 
     def set(self, key, value):
         """Give a key another value; the case stays as it was where that fails."""
-        call("case_set", self._pointer, key.encode(), _word(value).encode())
-
-    def copy(self):
-        """A copy, which goes its own way."""
-        return Case._make("case_copy", self._pointer)
+        call("case_set", self._pointer, encoded(key, "the name of a key"), encoded(_word(value), f"the value of {key}"))
 
     def check(self):
         """Laws, geometry and oil, without a run."""
@@ -108,6 +120,11 @@ class Result(Handle):
     takes without a copy; that of `cam_angle` holds the angle of each row [rad]."""
 
     _kind = "result"
+    _instead = "; its scalars and series can be"
+
+    def copy(self):
+        """Results do not change: there is nothing that a copy would be for."""
+        raise TypeError("a Result of camroller is not copied: it does not change, another name for it is enough")
 
     def __getattr__(self, name):
         if name not in ("scalars", "series", "units", "meanings", "remarks"):
@@ -145,12 +162,28 @@ def run_cases(cases, threads=None):
         yield from pool.map(Case.run, cases)
 
 
+def _axis(key, values):
+    """Values of a key of a sweep, checked before anything is run: each stands for one coordinate."""
+    values = values.tolist() if hasattr(values, "tolist") else values
+    if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+        raise TypeError(f"sweep: give {key} a list of values")
+    values = [value.tolist() if hasattr(value, "tolist") else value for value in values]
+    if not values:
+        raise UsageError(f"sweep: {key} has no values")
+    if any(isinstance(value, (list, tuple)) for value in values):
+        raise UsageError(f"sweep: the values of {key} must be numbers or texts, not lists, which cannot be coordinates; set lists in "
+                         "cases of your own and run them by run_cases")
+    return values
+
+
 def run(deck, set=None, sweep=None, threads=None):
     """Run a deck, given by its path or as a `Case`, with all cases of its sweep, or of `sweep`: a grid of values by key.
 
     With xarray a dataset, whose coordinates are the keys that vary: the axes of a grid, otherwise along `case`; series have the axis
     `cam_angle` [rad] beside. Without it a list of (values of the keys that vary, result).
     """
+    if sweep:
+        sweep = {key: _axis(key, values) for key, values in sweep.items()}
     case = deck.copy() if isinstance(deck, Case) else Case(deck)
     for key, value in (set or {}).items():
         case.set(key, value)
@@ -214,9 +247,7 @@ class _Stepped(Handle):
         """The engine has stopped: rollers come to rest, and the next step starts without spin."""
         call(f"{self._kind}_halt", self._pointer)
 
-    def copy(self):
-        """A copy, e.g. to go back to."""
-        return type(self)._make(f"{self._kind}_copy", self._pointer)
+    _instead = "; save() gives a block of bytes that can be, from which restore() makes another one of the same case"
 
     def _save(self, size):
         buffer = create_string_buffer(size)
@@ -241,7 +272,7 @@ class Simulation(_Stepped):
     def value(self, name):
         """Number at the end of the last step, by the name of a follower's series."""
         value = c_double()
-        call("simulation_value", self._pointer, name.encode(), byref(value))
+        call("simulation_value", self._pointer, encoded(name, "a name"), byref(value))
         return value.value
 
     def save(self):
@@ -292,7 +323,7 @@ class Shaft(_Stepped):
     def value(self, name, cam=0):
         """Number at the end of the last step: of the follower of a cam, from 1, or of the camshafts, 0."""
         value = c_double()
-        call("shaft_value", self._pointer, cam, name.encode(), byref(value))
+        call("shaft_value", self._pointer, cam, encoded(name, "a name"), byref(value))
         return value.value
 
     def quantities(self, cam=0):

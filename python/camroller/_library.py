@@ -11,6 +11,15 @@ from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_int, c_size_t, 
 INTERFACE = 2
 
 
+def encoded(text, what):
+    """A text for the library, which takes none with a null character in it: it would end there."""
+    if not isinstance(text, str):
+        raise TypeError(f"{what} must be a str, not {type(text).__name__}")
+    if "\0" in text:
+        raise UsageError(f"{what} has a null character in it: {text!r}")
+    return text.encode()
+
+
 class CamrollerError(Exception):
     """What went wrong. `code` is the kind of the error, `line` the first line of a deck that it names, or None."""
 
@@ -163,6 +172,7 @@ CALLS = {
 PLAIN = {
     "library_version": (c_int,),
     "library_version_text": (None, c_char_p, c_size_t),
+    "use_one_blas_thread": (c_int,),
     "case_free": (None, c_void_p),
     "case_sweep_size": (c_size_t, c_void_p),
     "result_rows": (c_size_t, c_void_p),
@@ -194,6 +204,8 @@ def load_library():
         function.argtypes = arguments
     if library.camroller_library_version() // 100 != INTERFACE:
         raise ImportError("camroller: the library beside the package belongs to another version of it")
+    # the OpenBLAS beside it is its own: that of numpy keeps its threads
+    library.camroller_use_one_blas_thread()
     return library
 
 
@@ -232,9 +244,26 @@ class Handle:
         self._pointer = pointer
 
     def __del__(self):
-        if getattr(self, "_pointer", None):
+        if self.__dict__.get("_pointer"):
             getattr(LIBRARY, f"camroller_{self._kind}_free")(self._pointer)
             self._pointer = None
+
+    def copy(self):
+        """A copy, which goes its own way."""
+        return type(self)._make(f"{self._kind}_copy", self._pointer)
+
+    def __copy__(self):
+        return self.copy()
+
+    def __deepcopy__(self, memo):
+        return self.copy()
+
+    def __reduce_ex__(self, protocol):
+        raise TypeError(f"a {type(self).__name__} of camroller cannot be pickled: it lives in the library of this process"
+                        + self._instead)
+
+    #: What a message about pickling says of other ways
+    _instead = ""
 
     @classmethod
     def _make(cls, name, *arguments):

@@ -185,3 +185,85 @@ declared = set(_library.CALLS) | set(_library.PLAIN)
 assert declared <= header, declared - header
 """
     run(installed[0], "-c", words, ROOT / "include" / "camroller.h")
+
+
+def in_python(installed, words, *arguments, **variables):
+    """What a script prints in this environment, where numpy is."""
+    return run(sys.executable, "-c", words, DECK, *arguments, env={**os.environ, "PYTHONPATH": str(installed[1]), **variables}).split()
+
+
+def test_copies_by_the_module_copy_are_copies_and_nothing_is_pickled(installed):
+    """A second object over the same thing of the library would free it twice."""
+    words = """
+import camroller, copy, gc, pickle, sys
+case = camroller.Case(sys.argv[1])
+result = case.run()
+inputs = camroller.Inputs(60.0, 333.15)
+for what in (case, camroller.Simulation(case, 0.0), camroller.Shaft(case, 0.0)):
+    for made in (copy.copy(what), copy.deepcopy([what])[0]):
+        assert type(made) is type(what) and made._pointer.value != what._pointer.value
+        if made is not case and hasattr(made, "step"):
+            assert made.step(0.1, inputs).mean_torque_drive == what.copy().step(0.1, inputs).mean_torque_drive
+    del made
+    gc.collect()
+    try:
+        pickle.dumps(what)
+    except TypeError as error:
+        assert "cannot be pickled" in str(error), error
+    else:
+        raise SystemExit("pickled")
+for attempt in (copy.copy, copy.deepcopy, pickle.dumps):
+    try:
+        attempt(result)
+    except TypeError as error:
+        assert "copied" in str(error) or "pickled" in str(error), error
+    else:
+        raise SystemExit("a result was copied")
+print("fine")
+"""
+    assert in_python(installed, words) == ["fine"]
+
+
+def test_values_of_numpy_texts_with_a_mark_and_wrong_ones(installed):
+    words = """
+import camroller, numpy as np, sys
+text = open(sys.argv[1]).read()
+folder = sys.argv[2]
+case = camroller.Case.from_text("\\ufeff" + text, folder)
+case.set("operating_point.speed_rpm", np.int64(700))
+assert case.numbers["operating_point.speed_rpm"] == 700.0
+case.set("operating_point.speed_rpm", np.float32(700.5))
+assert case.numbers["operating_point.speed_rpm"] == 700.5
+case.set("cam_bearings.bearing_series", np.bool_(True))
+case.set("cam_bearings.bearing_positions_mm", np.array([0.0, 61.0]))
+case.check()
+for attempt, kind in ((lambda: case.set("operating_point.speed_rpm\\0", 1), camroller.UsageError),
+                      (lambda: case.set("case.title", "a\\0b"), camroller.UsageError),
+                      (lambda: camroller.Case.from_text(text + "\\0 nonsense", folder), camroller.UsageError),
+                      (lambda: camroller.Case("a\\0b"), camroller.UsageError),
+                      (lambda: case.set("operating_point.speed_rpm", None), TypeError)):
+    try:
+        attempt()
+    except kind:
+        continue
+    raise SystemExit("taken")
+camroller.run_cases = None
+for values, kind in (([[0, 60], [0, 61]], camroller.UsageError), ([], camroller.UsageError), ("moes", TypeError), (5, TypeError)):
+    try:
+        camroller.run(case, sweep={"cam_bearings.bearing_positions_mm": values})
+    except kind as error:
+        assert "sweep" in str(error)
+    else:
+        raise SystemExit("a sweep of lists was run")
+print("fine")
+"""
+    assert in_python(installed, words, DECK.parent) == ["fine"]
+
+
+def test_the_library_of_the_package_has_one_blas_thread(installed):
+    words = """
+import camroller, ctypes, pathlib
+(path,) = pathlib.Path(camroller.__file__).parent.glob("lib/libopenblas.so*")
+print(ctypes.CDLL(str(path)).openblas_get_num_threads())
+"""
+    assert in_python(installed, words, OPENBLAS_NUM_THREADS="2") == ["1"]
