@@ -1,8 +1,11 @@
 /* One instance of an FMU. What the numbers of its variables mean is read from a file beside its deck, which `camroller fmu` writes
  * together with the model description: one line for each variable, its kind, cam and place, or its key, and its value at the start. */
+#define _POSIX_C_SOURCE 200809L /* for newlocale */
 #include "instance.h"
 
+#include <locale.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,12 +60,26 @@ static int heard(instance *self, int code) {
    return code == 0 ? 1 : instance_refuse(self, self->error.message);
 }
 
+/* Numbers have a point between their digits, whatever the host's locale has: what this thread reads and writes until the other call
+ * is in the locale "C". */
+static locale_t begin_c_locale(locale_t *made) {
+   *made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+   return *made == (locale_t)0 ? (locale_t)0 : uselocale(*made);
+}
+
+static void end_c_locale(locale_t before, locale_t made) {
+   if (made == (locale_t)0) return;
+   uselocale(before);
+   freelocale(made);
+}
+
 static int read_variables(instance *self) {
    char path[PATH_ROOM + 32], line[LINE_ROOM], word[32];
    size_t room = 0;
    snprintf(path, sizeof path, "%s/variables.txt", self->resources);
    FILE *file = fopen(path, "r");
    if (file == NULL) return instance_refuse(self, "the FMU has no resources/variables.txt");
+   locale_t made_locale, before = begin_c_locale(&made_locale);
    while (fgets(line, sizeof line, file) != NULL) {
       variable made = {KINDS, 0, 0, "", 0.0};
       if (sscanf(line, "%31s %d %d %95s %lf", word, &made.cam, &made.place, made.key, &made.start) != 5) break;
@@ -78,6 +95,7 @@ static int read_variables(instance *self) {
       if ((size_t)made.place >= self->row_room) self->row_room = (size_t)made.place + 1;
       self->variables[self->count++] = made;
    }
+   end_c_locale(before, made_locale);
    int is_whole = feof(file);
    fclose(file);
    return is_whole && self->count > 0 ? 1 : instance_refuse(self, "resources/variables.txt of the FMU is damaged");
@@ -87,9 +105,16 @@ static void set_starts(instance *self) {
    for (size_t i = 0; i < self->count; i++) self->now.values[i] = self->variables[i].start;
 }
 
+/* The FMU's own OpenBLAS has no threads of its own. */
+static void settle_blas(void) {
+   camroller_use_one_blas_thread();
+}
+
 instance *instance_new(const char *resources, listener tell, void *who) {
+   static pthread_once_t is_settled = PTHREAD_ONCE_INIT;
    instance *self = calloc(1, sizeof *self);
    if (self == NULL) return NULL;
+   pthread_once(&is_settled, settle_blas);
    self->tell = tell;
    self->who = who;
    self->error.size = sizeof self->error;
@@ -158,7 +183,9 @@ static camroller_case *case_of(instance *self, const double *values) {
    if (!heard(self, camroller_case_from_file(path, &made, &self->error))) return NULL;
    for (size_t i = 0; i < self->count; i++) {
       if (self->variables[i].kind != KEY || values[i] == self->variables[i].start) continue;
+      locale_t made_locale, before = begin_c_locale(&made_locale);
       snprintf(text, sizeof text, "%.17g", values[i]);
+      end_c_locale(before, made_locale);
       if (heard(self, camroller_case_set(made, self->variables[i].key, text, &self->error))) continue;
       camroller_case_free(made);
       return NULL;
@@ -217,6 +244,7 @@ int instance_step(instance *self, double time, double length) {
    camroller_shaft_outcome outcome = {.size = sizeof outcome};
    camroller_inputs start = {.size = sizeof start}, end = {.size = sizeof end};
    if (self->now.shaft == NULL) return instance_refuse(self, "a step needs an instance that is initialised");
+   if (!(isfinite(length) && length > 0.0)) return instance_refuse(self, "the length of a step must be finite and above zero");
    if (!(fabs(time - self->now.time) <= 1e-9 * (1.0 + fabs(time))))
       return instance_refuse(self, "a step must start where the one before ended, or a state of that time be set");
    start.speed = value_of(self, SPEED, 0);
@@ -309,7 +337,6 @@ int state_from_bytes(instance *self, const char *bytes, size_t count, state **pl
          return 0;
       }
    }
-   state_free(*place);
    *place = made;
    return 1;
 }

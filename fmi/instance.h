@@ -30,6 +30,7 @@ HIDDEN int state_put_back(instance *self, const state *kept);
 HIDDEN void state_free(state *kept);
 HIDDEN size_t state_size(instance *self, const state *kept);
 HIDDEN int state_to_bytes(instance *self, const state *kept, char *bytes, size_t room);
+/* `place` gets the state, whatever it held */
 HIDDEN int state_from_bytes(instance *self, const char *bytes, size_t count, state **place);
 
 #endif

@@ -140,7 +140,7 @@ contains
       call move_alloc(longer, variables)
    end subroutine append
 
-   !> Parameters: the numbers that the deck gives.
+   !> Parameters: the numbers that the deck gives, but for its operating point.
    subroutine add_keys(deck, variables)
       !> The deck
       type(deck_t), intent(in) :: deck
@@ -154,6 +154,8 @@ contains
       call given_numbers(deck, positions)
       do i = 1, size(positions)
          associate (key => deck%schema%keys(positions(i)))
+            ! speed and oil temperature are inputs
+            if (deck%schema%groups(key%group)%name == "operating_point") cycle
             one%role = role_parameter
             one%key = trim(deck%schema%groups(key%group)%name)//"."//trim(key%name)
             one%name = one%key

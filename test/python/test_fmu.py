@@ -5,7 +5,9 @@ from __future__ import annotations
 import concurrent.futures
 import ctypes
 import math
+import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -285,6 +287,75 @@ def test_instances_in_threads_give_the_same_bits_as_alone(write, tmp_path, versi
         unit.time = 0.0
         assert work(i) == together[i]
         unit.end()
+
+
+@pytest.fixture(scope="module")
+def comma_locale(tmp_path_factory):
+    """A locale whose numbers have a comma: the folder that it is in, and its name."""
+    if shutil.which("localedef") is None or not pathlib.Path("/usr/share/i18n/locales/de_DE").exists():
+        pytest.skip("localedef or the source of a locale is not installed")
+    place = tmp_path_factory.mktemp("locales")
+    subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(place / "de_DE.UTF-8")], check=True, capture_output=True)
+    return place, "de_DE.UTF-8"
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_numbers_are_whole_under_a_locale_with_a_comma(write, tmp_path, comma_locale, version):
+    """In a process of its own: numbers that are read at the start, and a parameter that is set."""
+    script = tmp_path / "drive.py"
+    script.write_text("""
+import locale, pathlib, sys
+sys.path.insert(0, sys.argv[1])
+import test_fmu
+if sys.argv[4]:
+    locale.setlocale(locale.LC_ALL, sys.argv[4])
+    assert locale.localeconv()["decimal_point"] == ","
+unit = test_fmu.Unit(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))
+unit.start(**{"roller.mass_kg": 0.0125, "start_angle": 0.5})
+names = ("speed", "oil_temperature", "roller.radius_mm")
+print(*[unit.get(name).hex() for name in names], unit.drive().hex(), unit.messages)
+""")
+    place, name = comma_locale
+    drives = [subprocess.run([sys.executable, str(script), str(ROOT / "test" / "python"), str(write(version)), str(tmp_path / "unit"), word],
+                             capture_output=True, text=True, check=True, env={**os.environ, "LOCPATH": str(place)}).stdout
+              for word in ("", name)]
+    assert drives[0] == drives[1] and "0x" in drives[0]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_state_is_made_of_bytes_whatever_its_place_held(write, tmp_path, version):
+    """The standards have it as an output only."""
+    unit = Unit(write(version), tmp_path / "unit")
+    unit.start()
+    block = unit.state("serializeFMUState", unit.state("getFMUState"))
+    call = unit.unit.dll[f"fmi{version}De" + ("serializeFMUState" if version == "3" else "SerializeFMUstate")]
+    place = ctypes.c_void_p(0x1234)
+    content = (ctypes.c_char * len(block)).from_buffer_copy(bytes(block))
+    assert call(ctypes.c_void_p(unit.unit.component), content, ctypes.c_size_t(len(block)), ctypes.byref(place)) == 0
+    assert place.value not in (None, 0x1234)
+    unit.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_steps_without_length_are_refused_and_the_operating_point_is_no_parameter(write, tmp_path, version):
+    unit = Unit(write(version), tmp_path / "unit")
+    assert "roller.mass_kg" in unit.numbers and not any(name.startswith("operating_point.") for name in unit.numbers)
+    unit.start()
+    for length in (math.nan, math.inf, 0.0, -1e-3):
+        with pytest.raises(Exception):
+            unit.unit.doStep(currentCommunicationPoint=0.0, communicationStepSize=length)
+        assert "length" in unit.messages[-1]
+    unit.end()
+
+
+def test_the_library_of_an_fmu_has_one_blas_thread(write, tmp_path):
+    words = ("import ctypes, pathlib, sys; sys.path.insert(0, sys.argv[1]); import test_fmu\n"
+             "unit = test_fmu.Unit(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))\n"
+             "(path,) = pathlib.Path(sys.argv[3]).glob('binaries/*/libopenblas.so*')\n"
+             "print(ctypes.CDLL(str(path)).openblas_get_num_threads())")
+    done = subprocess.run([sys.executable, "-c", words, str(ROOT / "test" / "python"), str(write("3")), str(tmp_path / "unit")],
+                          capture_output=True, text=True, check=True, env={**os.environ, "OPENBLAS_NUM_THREADS": "2"})
+    assert done.stdout.split() == ["1"]
 
 
 def test_both_versions_and_both_writings_are_alike(write, camroller, cmake_prefix, tmp_path):
