@@ -195,3 +195,50 @@ endforeach()
     run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", tmp_path / "build")
     assert run(tmp_path / "build" / "shared", cwd=ROOT) == run(tmp_path / "build" / "static", cwd=ROOT) != ""
+    assert run(tmp_path / "build" / "shared", cwd=ROOT) == run_by_pkg_config(prefix, tmp_path)
+
+
+def run_by_pkg_config(prefix, place):
+    """What the same program prints when it is built by what pkg-config says of both libraries."""
+    flags = run("pkg-config", "--cflags", "--libs", "camroller_io",
+                env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}).split()
+    run("gfortran", place / "two_cases.f90", *flags, f"-Wl,-rpath,{prefix}/lib", "-o", place / "by_pkg_config", cwd=place)
+    return run(place / "by_pkg_config", cwd=ROOT)
+
+
+def test_a_sweep_leaves_the_printing_of_errors_by_hdf5_as_it_was(cmake_io_prefix, tmp_path):
+    """A host that uses HDF5 itself sees the library's messages before and after."""
+    (tmp_path / "host.f90").write_text("""program host
+   use, intrinsic :: iso_c_binding, only : c_int
+   use camroller, only : deck_t, error_t, override_t, read_deck, run_sweep, sweep_options_t, sweep_report_t
+   implicit none
+   interface
+      function open_none(name, flags, access) bind(C, name="H5Fopen") result(file)
+         use, intrinsic :: iso_c_binding, only : c_char, c_int, c_int64_t
+         character(kind=c_char), intent(in) :: name(*)
+         integer(c_int), value :: flags
+         integer(c_int64_t), value :: access
+         integer(c_int64_t) :: file
+      end function open_none
+   end interface
+   type(deck_t) :: deck
+   type(override_t) :: none(0)
+   type(sweep_options_t) :: options
+   type(sweep_report_t) :: report
+   type(error_t), allocatable :: error
+   character(len=512) :: path
+   call get_command_argument(1, path)
+   call read_deck(deck, trim(path), none, error)
+   if (.not. allocated(error)) call run_sweep(deck, "sweep.h5", options, report, error)
+   if (allocated(error)) stop 1
+   if (open_none("there is none"//achar(0), 0_c_int, 0_8) >= 0) stop 2
+end program host
+""")
+    flags = run("pkg-config", "--cflags", "--libs", "camroller_io",
+                env={**os.environ, "PKG_CONFIG_PATH": str(cmake_io_prefix / "lib" / "pkgconfig")}).split()
+    needed = run("ldd", cmake_io_prefix / "lib" / "libcamroller_io.so")
+    hdf5 = re.findall(r" => (\S*/libhdf5(?:_serial)?\.so\S*)", needed)[0]
+    run("gfortran", "host.f90", *flags, hdf5, f"-Wl,-rpath,{cmake_io_prefix}/lib", "-o", "host", cwd=tmp_path)
+    done = subprocess.run([str(tmp_path / "host"), str(DECK)], capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "HDF5-DIAG" in done.stderr
