@@ -27,7 +27,7 @@ module camroller_simulation
    implicit none
    private
 
-   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, least_step
+   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    public :: prepare_simulation, place_simulation, check_angle, check_step, has_films, simulation_place, put_simulation_back
    public :: get_point, set_point, get_lobe, get_mark, get_values, is_started
    public :: simulation_angle, simulation_series, simulation_values
