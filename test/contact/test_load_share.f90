@@ -2,7 +2,7 @@
 module test_load_share
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
-   use camroller_film, only : groups_t, film_shape_t, film_line_t, film_law_names, film_shape, new_film_line, film_at_load, &
+   use camroller_film, only : groups_t, film_shape_t, film_line_t, film_law_names, new_film_line, film_at_load, &
       takes_whole_load, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
       asperity_area_function, asperity_law_names, law_greenwood_tripp, law_zhao_maietta_chang, &
