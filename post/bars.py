@@ -9,7 +9,7 @@ import textwrap
 from matplotlib.patches import Patch
 import numpy as np
 
-from layout import MOST_COLOURS, family, spread_colours, thin_out
+from layout import MOST_COLOURS, family, spread_colours, thin_out, wrapped
 from parts import MOST_PANELS, columns_for
 from quantities import SOURCES, mean_of
 from units import number
@@ -26,7 +26,7 @@ def shown_in_bars(layout):
     """Values of the first key and panels that fit into a bar chart."""
     if layout.is_list:
         return list(layout.colours), list(layout.panels)
-    panels = thin_out(layout.panels, MOST_PANELS)
+    panels = layout.shown_panels(MOST_PANELS)
     return thin_out(layout.colours, max(MOST_COLOURS, MOST_BARS // len(panels))), panels
 
 
@@ -207,7 +207,7 @@ def _case_axis(axes, layout, colours, panels, labelled=True):
     if len(panels) > 1:
         lower = axes.secondary_xaxis("bottom")
         lower.set_xticks([start + 0.5 * (len(colours) - 1) for start in starts],
-                         ["\n" + textwrap.fill(layout.panel_name(panel), max(6, int(group / CHARACTER))) for panel in panels],
+                         ["\n" + wrapped(layout.panel_name(panel), max(6, int(group / CHARACTER) - 2)) for panel in panels],
                          fontsize="small")
         lower.tick_params(length=0.0, pad=72.0 * CHARACTER * (longest + 0.5) if turned else 3.0)
     if layout.colour_key:

@@ -3,7 +3,6 @@
 from matplotlib.figure import Figure
 import numpy as np
 
-from layout import thin_out
 from parts import head, legend_handles, legend_height
 from quantities import Missing, mean_of
 from units import unit_words
@@ -21,7 +20,7 @@ MOST_PANELS = 3
 def dampers_figure(layout, _whole_cycle=None):
     """A group of bars for each damper that takes energy in some case, in it one for each case; panels side by side."""
     layout.refuse_too_many()
-    panels = thin_out(layout.panels, MOST_PANELS)
+    panels = layout.shown_panels(MOST_PANELS)
     columns = [layout.entries_of(panel, layout.shown_colours()) for panel in panels]
     lost = {words: [[mean_of(layout, entry, name, UNIT) or 0.0 for entry in entries] for entries in columns] for name, words in DAMPERS}
     lost = {words: values for words, values in lost.items() if np.nanmax(values) > 0.0}
@@ -45,5 +44,5 @@ def dampers_figure(layout, _whole_cycle=None):
             axes.set_title(layout.panel_name(panel), fontsize="medium")
     figure.axes[0].set_yticks(range(len(lost)), lost)
     figure.axes[0].set_ylim(len(lost) - 0.5, -0.5)
-    head(figure, layout, "energy lost in a turn by damper", legend, (len(layout.shown_colours()), len(panels)))
+    head(figure, layout, "energy lost in a turn by damper", legend, layout.shown_words(len(layout.shown_colours()), panels))
     return figure

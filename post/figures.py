@@ -11,7 +11,7 @@ import numpy as np
 
 from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
 from dampers import dampers_figure
-from layout import line_style, thin_out
+from layout import line_style, thin_out, wrapped
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
 from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, values_of
@@ -21,6 +21,7 @@ from turns import turns_figure
 from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
+TITLE = 40  # characters of a panel's title
 
 
 def draw(name, layout, whole_cycle=None):
@@ -28,17 +29,12 @@ def draw(name, layout, whole_cycle=None):
     return FIGURES[name](layout, whole_cycle)
 
 
-def shown(layout, panels):
-    """How many values of the first key and how many panels a figure of curves shows."""
-    return len(layout.shown_colours()), len(panels)
-
-
 def curve_figure(curve, layout, whole_cycle):
     """One quantity over the cam angle, a panel for each value of the second swept key."""
     need_series(layout, curve.series)
     layout.refuse_too_many()
     same = same_in_all_panels(layout, curve)
-    panels = layout.panels[:1] if same else thin_out(layout.panels, MOST_PANELS)
+    panels = layout.panels[:1] if same else layout.shown_panels(MOST_PANELS)
     columns = min(len(panels), 3)
     rows = -(-len(panels) // columns)
     legend, width = legend_handles(layout), 7.0 if columns == 1 else 2.0 + 3.2 * columns
@@ -54,12 +50,11 @@ def curve_figure(curve, layout, whole_cycle):
         mark_values(axes, curve)
         angle_axis(axes, window, labelled=place + columns >= len(panels))
         if len(panels) > 1:
-            axes.set_title(layout.panel_name(panel), fontsize="medium")
+            axes.set_title(wrapped(layout.panel_name(panel), TITLE), fontsize="medium")
         if place % columns == 0:
             axes.set_ylabel(f"{curve.title} [{unit_words(curve.unit)}]")
-    values, _ = shown(layout, panels)
     title = curve.title + (f", the same at each {layout.panel_words()}" if same else "")
-    head(figure, layout, title, legend, (values, len(layout.panels) if same else len(panels)))
+    head(figure, layout, title, legend, layout.shown_words(len(layout.shown_colours()), layout.panels if same else panels))
     return figure
 
 
@@ -79,7 +74,7 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
     parts = [part for part in parts if has_series(layout, part[0])] or parts
     need_series(layout, *(name for name, *_ in parts))
     layout.refuse_too_many()
-    colours, panels = (layout.colours if layout.is_list else thin_out(layout.colours, 3)), thin_out(layout.panels, 3)
+    colours, panels = (layout.colours if layout.is_list else thin_out(layout.colours, 3)), layout.shown_panels(3)
     places = [(colour, panel) for colour in colours for panel in panels]
     columns = min(3, len(places)) if layout.is_list else len(panels)
     rows = -(-len(places) // columns)
@@ -107,7 +102,7 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
                         (min(pair[0] for pair in known), max(pair[1] for pair in known)) if known else None)
     for axes in grid[len(places):]:
         axes.remove()
-    head(figure, layout, title, _torque_legend(layout, parts), (len(colours), len(panels)))
+    head(figure, layout, title, _torque_legend(layout, parts), layout.shown_words(len(colours), panels))
     return figure
 
 
@@ -140,7 +135,7 @@ def overview_figure(layout, wanted, parts, needed=()):
     if not curves:
         raise Missing("none of its series in the file" + ("s" if len(layout.files) > 1 else ""))
     layout.refuse_too_many()
-    panels = thin_out(layout.panels, MOST_COLUMNS)
+    panels = layout.shown_panels(MOST_COLUMNS)
     columns = len(panels) if len(panels) > 1 else 2
     rows = len(curves) if len(panels) > 1 else -(-len(curves) // columns)
     legend, width = legend_handles(layout), 2.0 + 3.2 * columns
@@ -148,13 +143,28 @@ def overview_figure(layout, wanted, parts, needed=()):
     figure = Figure(figsize=(width, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
     _overview_curves(upper, layout, curves, panels, (rows, columns))
-    head(upper, layout, "", legend, shown(layout, panels))
+    head(upper, layout, "", legend, _left_out(layout, panels, bars))
     if layout.is_list and len(bars) > 1 and len(layout.files) == 1:
         both_bars(lower, layout)
         return figure
     for part, place in zip(bars, np.atleast_1d(lower.subfigures(1, len(bars))) if bars else []):
         part(place, layout)
     return figure
+
+
+def _left_out(layout, panels, bars):
+    """What curves and bars of an overview leave out."""
+    of_curves = layout.shown_words(len(layout.shown_colours()), panels)
+    of_bars = _left_out_of_bars(layout) if bars else of_curves
+    if of_curves == of_bars:
+        return of_curves
+    return [f"in the curves {words}" for words in of_curves] + [f"in the bars {words}" for words in of_bars]
+
+
+def _left_out_of_bars(layout):
+    """What bars leave out."""
+    colours, panels = shown_in_bars(layout)
+    return layout.shown_words(len(colours), panels)
 
 
 def lying_height(layout):
@@ -180,7 +190,7 @@ def _overview_curves(figure, layout, curves, panels, shape):
             mark_values(axes, curve)
             angle_axis(axes, window, labelled=places.index(axes) + shape[1] >= len(curves) * len(panels))
             if number == 0 and len(panels) > 1:
-                axes.set_title(layout.panel_name(panel), fontsize="medium")
+                axes.set_title(wrapped(layout.panel_name(panel), TITLE), fontsize="medium")
         row[0].set_ylabel(f"{curve.title}\n[{unit_words(curve.unit)}]")
     figure.align_ylabels()
 
@@ -198,7 +208,7 @@ def bars_figure(part, title, layout):
     rows = len(layout.files) if part is torque_bars else 1
     figure = Figure(figsize=(7.5, 0.6 + lying_height(layout) if layout.is_list else 2.6 + 1.9 * rows), layout="constrained")
     part(figure, layout)
-    head(figure, layout, title, ([], None), [len(values) for values in shown_in_bars(layout)])
+    head(figure, layout, title, ([], None), _left_out_of_bars(layout))
     return figure
 
 

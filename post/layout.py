@@ -7,6 +7,7 @@ than a figure can hold are refused. Families of colours and line styles distingu
 """
 
 from dataclasses import dataclass
+import re
 
 from matplotlib import colormaps
 import numpy as np
@@ -134,6 +135,35 @@ class Layout:
         own = {entry.colour for entry in self.entries if entry.file == file}
         return [label for label in self.colours if label in own]
 
+    def shown_panels(self, most):
+        """At most so many panels: of each of their keys evenly spread values, each with all of the others, so that neighbours are the
+        same in all keys but one. Numbers are left out before names."""
+        values = self._panel_values(self.panels)
+        if np.prod([len(of_key) for of_key in values]) > len(self.panels):
+            return thin_out(self.panels, most)
+        counts = [len(of_key) for of_key in values]
+        while np.prod(counts) > most:
+            longest = max(range(len(counts)), key=lambda key: (counts[key] > 2, isinstance(values[key][0], float), counts[key]))
+            counts[longest] -= 1
+        values = [thin_out(of_key, count) for of_key, count in zip(values, counts)]
+        return [panel for panel in self.panels if all(value in of_key for value, of_key in zip(panel, values))]
+
+    def _panel_values(self, panels):
+        """Values of each key of the panels."""
+        return [_in_order(panel[place] for panel in panels) for place in range(len(self.panel_keys))]
+
+    def shown_words(self, colours, panels):
+        """How many values of each key are shown where it is not all: of so many of the first key, and of these panels."""
+        words = [] if colours >= len(self.colours) else \
+            [f"{colours} of {len(self.colours)} values of {self.short_names.get(self.colour_key)} shown"]
+        if len(panels) == len(self.panels):
+            return words
+        parts = [(len(some), len(of_key), key) for some, of_key, key
+                 in zip(self._panel_values(panels), self._panel_values(self.panels), self.panel_keys)]
+        if np.prod([of_all for _, of_all, _ in parts]) > len(self.panels):
+            return [*words, f"{len(panels)} of {len(self.panels)} pairs of {self.panel_words()} shown"]
+        return words + [f"{some} of {of_all} values of {self.short_names[key]} shown" for some, of_all, key in parts if some < of_all]
+
     def entries_of(self, panel, colours=None):
         """Cases that belong into a panel, all or only those of some values of the colour key."""
         return [entry for entry in self.entries
@@ -226,6 +256,16 @@ def thin_out(values, most):
     if len(values) <= most:
         return list(values)
     return [values[index] for index in np.unique(np.linspace(0, len(values) - 1, most).round().astype(int))]
+
+
+def wrapped(text, width):
+    """Text in lines of at most so many characters, where its words are not longer: they may end behind an underscore, too."""
+    lines = [""]
+    for word in re.findall(r"[^ _]*[ _]|[^ _]+$", text):
+        if lines[-1] and len((lines[-1] + word).rstrip()) > width:
+            lines.append("")
+        lines[-1] += word
+    return "\n".join(line.rstrip() for line in lines)
 
 
 def spread_colours(count):

@@ -183,19 +183,15 @@ def file_legend(layout, entries):
     return handles, len(layout.files)
 
 
-def head(figure, layout, title, legend, shown):
-    """Top of a page: what it shows, of which file, how many values and panels of a big sweep, and the legend."""
+def head(figure, layout, title, legend, left_out):
+    """Top of a page: what it shows, of which file, what is left out of a big sweep, and the legend."""
     handles, columns = legend
     words = [layout.titles[layout.files[0]]] if len(layout.files) == 1 else []
     if layout.colour_key and len(layout.colours) == 1:
         words.append(layout.name(layout.colour_key, layout.colours[0]))
     if len(layout.panels) == 1 and layout.panel_name(layout.panels[0]):
         words.append(layout.panel_name(layout.panels[0]))
-    for count, all_of_them, name in ((shown[0], layout.colours, layout.short_names.get(layout.colour_key)),
-                                     (shown[1], layout.panels, layout.panel_words())):
-        if count < len(all_of_them):
-            words.append(f"{count} of {len(all_of_them)} values of {name} shown")
-    words += layout.common_words() + several_cams(layout)
+    words += left_out + layout.common_words() + several_cams(layout)
     width = int(11.0 * figure.bbox.width / figure.dpi)
     text = "\n".join([title[:1].upper() + title[1:], *textwrap.wrap(", ".join(words), width)]).strip()
     legend = figure.legend(handles=handles if len(handles) > 1 else [], title=text, title_fontsize="large",

@@ -183,4 +183,6 @@ def need_series(layout, *names):
     """Missing with the names, unless at least one file has each of them."""
     absent = [name for name in names if not has_series(layout, name)]
     if absent:
-        raise Missing(f"no {' or '.join(absent)} in the file" + ("s" if len(layout.files) > 1 else ""))
+        none_at_all = all(layout.results[number].cases > 1 and not layout.results[number].series for number in layout.files)
+        raise Missing(f"no {' or '.join(absent)} in the file" + ("s" if len(layout.files) > 1 else "")
+                      + (": a sweep keeps series only with series = 'all' or 'chosen' in &sweep" if none_at_all else ""))

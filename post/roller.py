@@ -37,7 +37,10 @@ def roller_figure(layout, _whole_cycle=None):
     entries = [entry for entry in layout.entries if slices_of(layout, entry) is not None]
     if not entries:
         raise Missing("series line_load_1 and so on: slice_series = .true. in &roller_profile")
-    entries = thin_out(entries, MOST_PANELS)
+    most = max(1, MOST_PANELS // len(layout.files))
+    colours = thin_out(layout.colours, most)
+    panels = layout.shown_panels(max(1, most // len(colours)))
+    entries = [entry for entry in entries if entry.colour in colours and entry.panel in panels]
     columns = min(len(entries), 2)
     rows = -(-len(entries) // columns)
     figure = Figure(figsize=(7.5, 1.0 + 2.7 * rows), layout="constrained")
@@ -59,5 +62,5 @@ def roller_figure(layout, _whole_cycle=None):
             axes.set_ylabel("load per length [N/mm]")
         if number + columns >= len(entries):
             axes.set_xlabel("place along the roller over its length")
-    head(figure, layout, "load along the roller", ([], None), (len(entries), 1))
+    head(figure, layout, "load along the roller", ([], None), layout.shown_words(len(colours), panels))
     return figure

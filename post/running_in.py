@@ -37,5 +37,5 @@ def running_in_figure(layout, _whole_cycle=None):
         axes.grid(alpha=0.3)
     for axes in figure.axes[2:]:
         axes.set_xlabel("running time [h]")
-    head(figure, layout, "surfaces over hours of running", ([], None), (len(layout.colours), len(layout.panels)))
+    head(figure, layout, "surfaces over hours of running", ([], None), [])
     return figure

@@ -7,10 +7,10 @@ import pytest
 
 import figures
 from figures import FIGURES, draw
-from layout import MOST_LISTED, Layout
+from layout import MOST_LISTED, Layout, wrapped
 from parts import event_window
 from plot import main
-from quantities import CURVES
+from quantities import CURVES, Missing
 from read import ResultError, read_result
 from test_post import OIL, SPEED, write_result
 
@@ -75,6 +75,45 @@ def test_lists_side_by_side_have_a_curve_and_a_label_for_each_case(zipped, name)
     assert "the same at each" not in title(figure)
     drawn = [(str(line.get_color()), str(line.get_linestyle())) for line in curves(figure.axes[0])]
     assert len(set(drawn)) == 3
+
+
+THIRD = "film.law"
+
+
+def test_figures_of_several_keys_are_thinned_out_key_by_key():
+    """With five temperatures and two laws, laws stay together at each temperature that is left."""
+    layout = object.__new__(Layout)
+    layout.colour_key, layout.colours, layout.panel_keys = SPEED, [300.0, 600.0], [OIL, THIRD]
+    layout.short_names = {SPEED: "speed", OIL: "oil temperature", THIRD: "film law"}
+    layout.panels = [(oil, law) for oil in (25.0, 40.0, 60.0, 80.0, 95.0) for law in ("moes", "pan_hamrock")]
+    assert layout.shown_panels(4) == [(25.0, "moes"), (25.0, "pan_hamrock"), (95.0, "moes"), (95.0, "pan_hamrock")]
+    assert len(layout.shown_panels(9)) == 8 and layout.shown_panels(10) == layout.panels
+    # with one panel left of two laws, the title says so, and it counts values of each key
+    assert layout.shown_panels(3) == [(25.0, "moes"), (25.0, "pan_hamrock")]
+    assert layout.shown_words(1, layout.shown_panels(4)) == ["1 of 2 values of speed shown", "2 of 5 values of oil temperature shown"]
+    assert layout.shown_words(2, layout.panels) == []
+    # panels that are not each value with each other are spread as they come
+    layout.panels = layout.panels[::3]
+    assert layout.shown_panels(2) == [layout.panels[0], layout.panels[-1]]
+    assert layout.shown_words(2, layout.panels[:2]) == ["2 of 4 pairs of oil temperature and film law shown"]
+
+
+def test_an_overview_says_what_curves_and_bars_leave_out(tmp_path):
+    figure = draw("overview", Layout([read_result(write_result(tmp_path / "ten.h5", oils=tuple(range(20, 120, 10)), step=15.0))]))
+    assert "in the curves 4 of 10 values of oil temperature shown, in the bars 9 of 10 values of oil temperature shown" in title(figure)
+
+
+def test_labels_are_cut_between_words():
+    assert wrapped("25 °C, masjedi_khonsari_rough", 18) == "25 °C, masjedi_\nkhonsari_rough"
+    assert wrapped("dowson_higginson", 8) == "dowson_\nhigginson" and wrapped("moes", 2) == "moes"
+
+
+def test_a_sweep_without_series_says_how_to_keep_them(tmp_path):
+    path = without_series(write_result(tmp_path / "bare.h5", step=15.0))
+    with pytest.raises(Missing, match="load_error.*only with series = 'all' or 'chosen' in &sweep"):
+        draw("train", Layout([read_result(path)]))
+    with pytest.raises(Missing, match="no load_error in the file$"):
+        draw("train", Layout([read_result(write_result(tmp_path / "rigid.h5", without=("load_error",), step=15.0))]))
 
 
 def test_an_overview_of_lists_has_every_case_in_every_panel(zipped):

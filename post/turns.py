@@ -43,7 +43,7 @@ def turns_figure(layout, _whole_cycle=None):
     section.set_ylabel("speed of the valve at the nose [m/s]")
     for axes in figure.axes:
         axes.grid(alpha=0.3)
-    head(figure, layout, "from turn to turn", (section.get_legend_handles_labels()[0], None), (len(layout.colours), len(layout.panels)))
+    head(figure, layout, "from turn to turn", (section.get_legend_handles_labels()[0], None), [])
     return figure
 
 
