@@ -88,9 +88,10 @@ contains
             & far_from_points, "the pressure-viscosity coefficient is that of a straight line through its points")
       end associate
       if (.not. allocated(case%boundary_law)) return
-      if (case%boundary_law%law == boundary_law_names(boundary_table) .and. allocated(case%boundary_law%temperature_points)) &
-         & call look_at(case%boundary_law%temperature_points, far_from_points, "the coefficient of touching asperities is that "// &
-         & "of the nearest temperature in the table of &boundary_law")
+      if (case%boundary_law%law == boundary_law_names(boundary_table) .and. allocated(case%boundary_law%temperature_points)) then
+         call look_at(case%boundary_law%temperature_points, far_from_points, "the coefficient of touching asperities is that "// &
+            & "of the nearest temperature in the table of &boundary_law")
+      end if
 
    contains
 
