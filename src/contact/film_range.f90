@@ -10,7 +10,7 @@ module camroller_film_range
    implicit none
    private
 
-   public :: film_range_t, note_film, matters, range_in_words
+   public :: film_range_t, group_names, note_film, matters, range_in_words
 
    !> Part of the friction loss that a film outside of its law's range may have on the base circle without a word [-]
    real(wp), parameter :: small_part = 0.01_wp

@@ -10,7 +10,8 @@ module camroller_step_judge
    use camroller_contact_forces, only : film_groups
    use camroller_cycle, only : cycle_t, state_at
    use camroller_engine, only : write_speed
-   use camroller_film, only : groups_t, is_in_range, law_table, published_range
+   use camroller_film, only : group_count, group_values, groups_t, is_in_range, law_table, published_range
+   use camroller_film_range, only : group_names
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number
    use camroller_ramp, only : follow_ramp
@@ -19,9 +20,6 @@ module camroller_step_judge
    private
 
    public :: judge_state, judge_piece
-
-   !> Names of the groups of a film law
-   character(len=*), parameter :: group_names(3) = [character(len=2) :: "U", "G", "W*"]
 
 contains
 
@@ -106,13 +104,13 @@ contains
       character(len=:), allocatable, intent(inout) :: text
 
       ! Published bounds of the groups, the groups [-]
-      real(wp) :: bounds(2, 3), values(3)
+      real(wp) :: bounds(2, group_count), values(group_count)
       integer :: i
 
       if (law == law_table) return
       bounds = published_range(law)
-      values = [groups%speed, groups%material, groups%load]
-      do i = 1, 3
+      values = group_values(groups)
+      do i = 1, group_count
          if (values(i) >= bounds(1, i) .and. values(i) <= bounds(2, i)) cycle
          text = text//"; "//trim(group_names(i))//" is "
          call append_number(text, values(i), 3)
