@@ -469,7 +469,8 @@ contains
          & "with 'accuracy' it is 0.01 of that", &
          & default=standard%numerics%periodicity)
       call add_integer(schema, "max_cycles", one_or_more, &
-         & "largest number of cycles integrated until the cycle is periodic; a case that is not periodic then fails", &
+         & "largest number of cycles integrated until the cycle is periodic; a case that is not periodic then fails; "// &
+         & "with &dynamics at least 40, after which it does not fail", &
          & default=standard%numerics%max_cycles)
    end subroutine add_numerics_keys
 

@@ -7,9 +7,10 @@ module camroller_deck_dynamics
    use camroller_deck_schema, only : add_group, add_integer, add_name, add_number, from_to, group_effect, not_negative, &
       & positive, range_t, schema_t
    use camroller_flexible_parts, only : dynamics_t
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : pi, wp
    use camroller_lash_adjuster, only : lash_adjuster_t, leak_end_names
    use camroller_mistakes, only : mistakes_t
+   use camroller_number_text, only : number_text
    use camroller_settings, only : get_word, has_group, is_known, is_wrong, settings_t, take
    use camroller_spring_modes, only : most_modes, spring_surge_t
    implicit none
@@ -35,7 +36,8 @@ contains
          & default=standard%pad_stiffness)
       call add_number(schema, "pad_damping_s_m", not_negative, "damping of the pad, as of cam and roller", &
          & default=standard%pad_damping)
-      call add_number(schema, "seat_stiffness_N_m", positive, "stiffness of the seat and the valve's head", &
+      call add_number(schema, "seat_stiffness_N_m", positive, "stiffness of the seat and the valve's head; with "// &
+         & "&gas_force it decides how far the gas presses the closed valve, and the finger onto the cam", &
          & default=standard%seat_stiffness)
       call add_number(schema, "seat_damping_s_m", not_negative, "damping of the seat, as of cam and roller", &
          & default=standard%seat_damping)
@@ -44,8 +46,9 @@ contains
          & is_optional=.true.)
       call add_number(schema, "seat_restitution_speed_m_s", positive, "speed of that impact", &
          & default=standard%seat_restitution_speed)
-      call add_number(schema, "lash_mm", not_negative, "clearance at the pad of the closed valve, of a train without a lash "// &
-         & "adjuster that nothing presses together on the base circle", default=standard%lash)
+      call add_number(schema, "lash_mm", not_negative, "clearance at the pad of a valve that touches its seat without force, "// &
+         & "of a train without a lash adjuster that nothing presses together on the base circle; the closed valve sinks into "// &
+         & "its seat by the spring's force over seat_stiffness_N_m, and has as much more", default=standard%lash)
       call add_surge_keys(schema)
       call add_adjuster_keys(schema)
    end subroutine add_dynamics_keys
@@ -211,6 +214,7 @@ contains
          call take(settings, "dynamics", "lash_mm", lash)
          if (lash > 0.0_wp) call complain(mistakes, settings, "dynamics", "lash_mm", "'lash_mm' must be 0 with &lash_adjuster, "// &
             & "which leaves no lash")
+         call chamber_keeps_a_volume(settings, mistakes)
       end if
       call finger_is_known(settings, mistakes)
       call spring_leaves_a_valve(settings, mistakes)
@@ -256,6 +260,28 @@ contains
       if (valve <= 0.0_wp .and. .not. is_wrong(settings, "masses", "valve_kg")) call complain(mistakes, settings, "masses", &
          & "valve_kg", "'valve_kg' must be above 0 with &dynamics")
    end subroutine finger_is_known
+
+   !> Down to its lower stop the plunger leaves a chamber.
+   subroutine chamber_keeps_a_volume(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      type(lash_adjuster_t) :: adjuster
+      ! Volume that the plunger displaces from its middle place to its lower stop [m^3]
+      real(wp) :: displaced
+
+      call take(settings, "lash_adjuster", "diameter_mm", adjuster%diameter)
+      call take(settings, "lash_adjuster", "volume_cm3", adjuster%volume)
+      call take(settings, "lash_adjuster", "lowest_mm", adjuster%lowest)
+      if (min(adjuster%diameter, adjuster%volume) <= 0.0_wp) return
+      displaced = 0.25_wp*pi*adjuster%diameter**2*abs(adjuster%lowest)
+      if (adjuster%volume > displaced) return
+      call complain(mistakes, settings, "lash_adjuster", "volume_cm3", "'volume_cm3' must be above the "// &
+         & number_text(1.0e6_wp*displaced, 4)//" cm3 that the plunger displaces down to 'lowest_mm' = "// &
+         & number_text(1.0e3_wp*adjuster%lowest, 4))
+   end subroutine chamber_keeps_a_volume
 
    !> The valve's mass holds a third of the spring's.
    subroutine spring_leaves_a_valve(settings, mistakes)
