@@ -9,10 +9,12 @@ module camroller_train_outlook
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_contact_compliance, only : line_approach, series_load
    use camroller_dynamics, only : evaluate_moments, moments_t
+   use camroller_error, only : error_t
    use camroller_flexible_parts, only : dynamics_t, flexible_t, set_contacts
+   use camroller_flexible_setup, only : find_rest, rest_t
    use camroller_kinematics, only : position_t
    use camroller_lapack, only : dsygv
-   use camroller_lash_adjuster, only : bulk_modulus, chamber_volume
+   use camroller_lash_adjuster, only : bulk_modulus, chamber_volume, relative_volume
    use camroller_lift, only : is_at_rest
    use camroller_model, only : evaluate_geometry, model_t
    use camroller_state, only : evaluate_loading
@@ -41,6 +43,9 @@ module camroller_train_outlook
       real(wp), allocatable :: surge(:)
    end type outlook_t
 
+   !> Damping ratios between which an oscillator is followed: without damping its response at resonance has no bound, and where it
+   !> does not vibrate it creeps no slower than at the limit; a spring of one wire has 0.003 [-]
+   real(wp), parameter :: least_ratio = 1.0e-3_wp, most_ratio = 0.999_wp
    !> Angles at which load and lift are taken
    integer, parameter :: points = 720
    !> Places of finger, valve and plunger in the linear train
@@ -62,6 +67,8 @@ contains
       integer :: i, n, status
       ! Does the valve rest here, and did it at the angle before? Without gas force nothing changes then
       logical :: rests, rested
+      ! Gas force at the angles where the valve is closed [N], the largest load of the rigid train [N]
+      real(wp) :: gas(points), largest
 
       allocate (outlook%frequencies(0), outlook%surge(0))
       outlook%is_known = allocated(model%pivot) .and. model%train%valve_mass > 0.0_wp
@@ -69,18 +76,21 @@ contains
       call find_modes(model, outlook)
       if (.not. minval(outlook%frequencies) > 0.0_wp) return
       rests = .false.
+      force = 0.0_wp
       do i = 1, points
          rested = rests
-         rests = is_at_rest(model%lift_law, two_pi*real(i - 1, wp)/points - pi) .and. .not. allocated(model%gas)
-         if (.not. (rests .and. rested)) call evaluate_loading(model, two_pi*real(i - 1, wp)/points - pi, position, force, &
-            & moments, status)
+         rests = is_at_rest(model%lift_law, two_pi*real(i - 1, wp)/points - pi)
+         if (.not. (rests .and. rested) .or. allocated(model%gas)) call evaluate_loading(model, two_pi*real(i - 1, wp)/points &
+            & - pi, position, force, moments, status)
          if (status /= 0) return
          load(i) = moments%total/position%normal_arm
          lift(i) = model%speed**2*position%lift_curvature
+         gas(i) = merge(force, 0.0_wp, rests)
       end do
+      largest = maxval(load)
+      if (maxval(gas) > 0.0_wp) load = load + gas*gas_share(model, maxval(gas))
       associate (step => two_pi/(points*model%speed), pulse => outlook%frequencies(1))
-         outlook%load_factor = largest_response(pulse**2*load, pulse, outlook%damping_ratio, step, &
-            & is_either_side=.false.)/maxval(load)
+         outlook%load_factor = largest_response(pulse**2*load, pulse, outlook%damping_ratio, step, is_either_side=.false.)/largest
          if (.not. allocated(model%flexible)) return
          associate (modes => model%flexible%modes)
             outlook%surge = [(modes%stiffness*n*pi*largest_response(2.0_wp*modes%share(n)*lift, modes%frequency(n), &
@@ -88,6 +98,87 @@ contains
          end associate
       end associate
    end subroutine find_outlook
+
+   !> Contact load that a gas force on the closed valve adds, over that force: it presses the valve into its seat, and its stem the
+   !> finger onto the cam, or the plunger into its oil. Balance of the valve's lift, which both share, by halving.
+   function gas_share(model, gas) result(share)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The force, above 0 [N]
+      real(wp), intent(in) :: gas
+      !> The share [-]
+      real(wp) :: share
+
+      type(rest_t) :: rest
+      type(position_t) :: closed
+      type(error_t), allocatable :: error
+      ! Forces at the pad between which that of the balance is, and their middle [N]; normal and tangent [-]; lever of load and pad,
+      ! load along the adjuster's axis over the load [-]
+      real(wp) :: least, most, middle, normal(2), tangent(2), lever, along
+      integer :: i, status
+
+      share = 0.0_wp
+      if (.not. allocated(model%flexible)) return
+      if (model%flexible%lash > 0.0_wp) return
+      call find_rest(model%flexible, model%linkage, model%train, model%base_circle_load, rest, error)
+      if (.not. allocated(error)) call evaluate_geometry(model, -pi, closed, status)
+      if (allocated(error)) return
+      if (status /= 0) return
+      call normal_direction(closed%normal_arm, closed%tangent_arm, model%linkage%a, closed%arm_angle, model%linkage%sense, normal, &
+         & tangent)
+      lever = closed%valve_arm/closed%normal_arm
+      along = normal(1)*real(model%flexible%axis, wp) + normal(2)*aimag(model%flexible%axis)
+      least = rest%tip_force
+      most = rest%tip_force + gas
+      do i = 1, 40
+         middle = 0.5_wp*(least + most)
+         if (sunk(middle) < 0.0_wp) then
+            least = middle
+         else
+            most = middle
+         end if
+      end do
+      share = (middle - rest%tip_force)*lever/gas
+
+   contains
+
+      !> Lift of the valve with a force at the pad less the lift that the finger leaves it.
+      function sunk(tip) result(way)
+         !> The force [N]
+         real(wp), intent(in) :: tip
+         !> Difference [m]
+         real(wp) :: way
+
+         ! Way of the plunger [m], pressure [Pa]
+         real(wp) :: plunger, pressure
+
+         associate (flexible => model%flexible)
+            plunger = 0.0_wp
+            if (allocated(flexible%adjuster)) then
+               associate (adjuster => flexible%adjuster, given => flexible%adjuster%given)
+                  pressure = max(0.0_wp, given%supply_pressure - (along*lever + flexible%tilt_cosine)*(tip - rest%tip_force) &
+                     & /adjuster%area)
+                  plunger = chamber_volume(adjuster, rest%pivot)/adjuster%area*(relative_volume(given, pressure) &
+                     & /relative_volume(given, given%supply_pressure) - 1.0_wp)
+               end associate
+            end if
+            way = (tip - rest%tip_force - gas)/(flexible%seat_stiffness + model%train%stiffness) &
+               & + (tip - rest%tip_force)/flexible%pad_stiffness + (along*lever + flexible%tilt_cosine)*plunger &
+               & + lever*(approach(tip*lever) - approach(model%base_circle_load))
+         end associate
+      end function sunk
+
+      !> Approach of cam and roller with the finger's bending.
+      function approach(load) result(way)
+         !> The load [N]
+         real(wp), intent(in) :: load
+         !> The approach [m]
+         real(wp) :: way
+
+         way = model%flexible%compliance*load**0.9_wp + load/model%flexible%finger_stiffness
+      end function approach
+
+   end function gas_share
 
    !> Natural frequencies of the linear train at full lift, and the damping ratio of the lowest.
    subroutine find_modes(model, outlook)
@@ -209,7 +300,7 @@ contains
    pure subroutine follow_oscillator(force, frequency, damping_ratio, step, displacement, rate)
       !> f at the ends of the steps [any/s^2]
       real(wp), intent(in) :: force(:)
-      !> omega [rad/s], zeta below 1 [-], time between two points [s]
+      !> omega [rad/s], zeta, taken within `least_ratio` and `most_ratio` [-], time between two points [s]
       real(wp), intent(in) :: frequency, damping_ratio, step
       !> x [any] and its rate [any/s] at the same points
       real(wp), intent(out) :: displacement(:), rate(:)
@@ -217,12 +308,13 @@ contains
       ! The root p = -zeta omega + i omega_d and its exponential, integrals over a step, the state z = x' - conj(p) x with
       ! z' = p z + f and x = Im(z)/omega_d [any]
       complex(wp) :: pole, factor, by_start, by_slope, state
-      ! omega_d [rad/s]
-      real(wp) :: damped
+      ! omega_d [rad/s], zeta in use [-]
+      real(wp) :: damped, ratio
       integer :: pass, i, next
 
-      damped = frequency*sqrt(1.0_wp - min(damping_ratio, 0.999_wp)**2)
-      pole = cmplx(-damping_ratio*frequency, damped, wp)
+      ratio = min(max(damping_ratio, least_ratio), most_ratio)
+      damped = frequency*sqrt(1.0_wp - ratio**2)
+      pole = cmplx(-ratio*frequency, damped, wp)
       factor = exp(pole*step)
       ! Integrals of exp(p (h - s)) and of the same times s/h over the step
       by_start = (factor - 1.0_wp)/pole

@@ -21,6 +21,7 @@ contains
 
       testsuite = [ &
          new_unittest("the response of an oscillator to a harmonic force agrees with the closed form", test_harmonic), &
+         new_unittest("an oscillator without damping, and one that creeps, have responses of a size", test_extremes), &
          new_unittest("natural frequencies of the reference train, with fixed pivot and with adjuster, agree with the reference", &
             & test_frequencies), &
          new_unittest("load factors of the reference train agree with the reference within one per cent", test_load_factors), &
@@ -46,6 +47,26 @@ contains
       call check_close(error, response, 1.0_wp/sqrt((frequency**2 - pulse**2)**2 + (2.0_wp*damping_ratio*frequency*pulse)**2), &
          & 5.0e-8_wp, "response")
    end subroutine test_harmonic
+
+   !> A unit force with a harmonic at resonance: without damping the response is that of a ratio of 0.001, and with a hundred times
+   !> the critical damping it is not below the force.
+   subroutine test_extremes(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 2000
+      ! Force [m/s^2], frequency [rad/s], response [m]
+      real(wp) :: force(n), frequency, response
+      integer :: i
+
+      frequency = 300.0_wp
+      force = frequency**2*[(1.0_wp + 0.1_wp*cos(10.0_wp*two_pi*real(i - 1, wp)/n), i=1, n)]
+      response = largest_response(force, frequency, 0.0_wp, 10.0_wp*two_pi/(n*frequency))
+      ! 1 + 0.1/(2 0.001); lines between points take 2.7e-3 of the harmonic
+      call check_close(error, response, 51.0_wp, 1.0e-2_wp, "no damping")
+      if (allocated(error)) return
+      response = largest_response(force, frequency, 100.0_wp, 10.0_wp*two_pi/(n*frequency))
+      ! As with critical damping: 1 + 0.1/2
+      call check_close(error, response, 1.05_wp, 1.0e-3_wp, "much damping")
+   end subroutine test_extremes
 
    !> Estimates of the reference train.
    subroutine estimate(speed, modes, has_adjuster, outlook, error)
