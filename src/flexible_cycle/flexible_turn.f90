@@ -5,7 +5,7 @@
 module camroller_flexible_turn
    use camroller_kinds, only : wp, pi, degree
    use camroller_cam_angle, only : cam_angle_text
-   use camroller_error, only : error_t, raise, kind_domain
+   use camroller_error, only : error_t, raise, kind_convergence, kind_domain
    use camroller_dynamics, only : evaluate_moments, moments_t
    use camroller_kinematics, only : position_t
    use camroller_model, only : evaluate_geometry, model_t
@@ -17,7 +17,8 @@ module camroller_flexible_turn
    use camroller_ode_switching, only : integrate_switching, shortest_step
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_train, only : flexible_state_t, evaluate_train, state_size, at_finger, at_sliding
-   use camroller_number_text, only : millimetres_text, number_text
+   use camroller_lash_adjuster, only : bulk_modulus, evaluate_flows, flows_t
+   use camroller_number_text, only : integer_text, millimetres_text, number_text
    use camroller_flexible_problem, only : flexible_problem_t, set_scales
    implicit none
    private
@@ -38,7 +39,7 @@ module camroller_flexible_turn
    real(wp), parameter :: least_steps = 20.0_wp
    !> Sliding speed that is none, however slow the cam, over that of the surface of a roller that turns with it [-]
    real(wp), parameter :: no_slip = 1.0e-6_wp
-   !> Steps of a cycle after which it is given up
+   !> Steps of a cycle after which it is given up: a hundred times as many as usual
    integer, parameter :: most_steps = 400000
 
    !> What integrates one turn after another
@@ -55,6 +56,8 @@ module camroller_flexible_turn
       real(wp), allocatable :: scales(:)
       !> Difference of sliding speeds that steps can resolve, whatever the tolerance [m/s]
       real(wp) :: least_sliding = 0.0_wp
+      !> Steps of all turns together after which they are given up
+      integer :: most_work = huge(1)
    end type turn_t
 
 contains
@@ -171,12 +174,60 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(options_t) :: options
+      character(len=:), allocatable :: fastest
+      ! Steps before and after
+      integer :: before, taken
 
       options = turn%options
-      options%max_steps = options%max_steps + counters%accepted + counters%rejected
+      before = counters%accepted + counters%rejected
+      options%max_steps = min(options%max_steps + before, turn%most_work)
       call integrate_switching(turn%problem, turn%method, options, turn%stops, state, trajectory, counters, error)
-      if (allocated(error)) call explain_end(turn, trajectory, error)
+      if (.not. allocated(error)) return
+      taken = counters%accepted + counters%rejected
+      if (taken > options%max_steps) then
+         deallocate (error)
+         call find_fastest(turn%problem%model, fastest)
+         if (taken > turn%most_work) then
+            call raise(error, kind_domain, "its turns take more than "//integer_text(turn%most_work)//" steps; "//fastest)
+         else
+            call raise(error, kind_convergence, "the number of steps is used up, "//integer_text(most_steps)//" in a turn; "// &
+               & fastest)
+         end if
+      else
+         call explain_end(turn, trajectory, error)
+      end if
    end subroutine integrate_turn
+
+   !> The part of a train that changes fastest, in words.
+   subroutine find_fastest(model, text)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The words
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=*), parameter :: keys(*) = [character(len=34) :: "dynamics.finger_stiffness_N_m", &
+         & "dynamics.pad_stiffness_N_m", "dynamics.seat_stiffness_N_m", "lash_adjuster.stop_stiffness_N_m", &
+         & "lash_adjuster.gap_um", "lash_adjuster.check_area_mm2"]
+      type(flows_t) :: flows
+      ! Natural frequencies of parts, decay of pressure by leak and check valve [1/s]; bulk modulus [Pa], its slope [-]
+      real(wp) :: rates(size(keys)), modulus, slope
+
+      associate (flexible => model%flexible)
+         rates = 0.0_wp
+         rates(:3) = sqrt([flexible%finger_stiffness*model%linkage%a**2/model%train%finger_inertia, &
+            & flexible%pad_stiffness/flexible%effective_mass, flexible%seat_stiffness/flexible%effective_mass])
+         if (allocated(flexible%adjuster)) then
+            associate (adjuster => flexible%adjuster, given => flexible%adjuster%given)
+               call bulk_modulus(given, adjuster%supply_pressure, modulus, slope)
+               call evaluate_flows(adjuster, adjuster%supply_pressure - given%crack_pressure - given%full_pressure, flows)
+               rates(4) = sqrt(given%stop_stiffness/given%plunger_mass)
+               rates(5:6) = modulus/given%volume*[flows%leak_slope, abs(flows%check_slope)]
+            end associate
+         end if
+      end associate
+      text = "the fastest part of the train, with "//number_text(maxval(rates), 2)//" 1/s, is that of "// &
+         & trim(keys(maxloc(rates, 1)))//": look there, and for a damping of 0"
+   end subroutine find_fastest
 
    !> Say so where an integration ended because the roller has left the cam and no state follows: the finger has turned over, or no
    !> point of the cam is nearest.
