@@ -25,7 +25,7 @@ module camroller_flexible_measures
       & smallest_event_load, event_pivot_force, least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, &
       & float_share, losses_of_contact, drive_torque, loss_torque, damping_torque, smallest_pivot_force, tension_share, &
       & surge_force, coil_ratio, lowest_plunger, highest_plunger, largest_pressure, leak_volume, check_share, residual_work, &
-      & gallery_torque, event_check_share, damper_works, lift_at_nose, speed_at_nose
+      & gallery_torque, event_check_share, damper_works, lift_at_nose, speed_at_nose, smallest_lift, closed_load
 
    !> A measure: its name, unit and meaning
    type :: measure_t
@@ -42,6 +42,8 @@ module camroller_flexible_measures
       real(wp) :: height = -1.0_wp, load = 0.0_wp
       !> Force in the joint [N]; pressure above that at which the check valve opens [Pa]
       real(wp) :: joint, shut
+      !> Does the rigid lift rise there, above what is none of it? Is the plunger on its lower stop?
+      logical :: is_rising = .false., is_low = .false.
       !> Cam angle of the point before [rad], force in the joint there [N]
       real(wp) :: angle_before = huge(1.0_wp), joint_before = 0.0_wp
    end type sample_t
@@ -50,11 +52,11 @@ module camroller_flexible_measures
    integer, parameter :: largest_load = 1, largest_load_angle = 2, smallest_event_load = 3, least_lift_error = 4, &
       & most_lift_error = 5, seating_speed = 6, bounce_height = 7, bounces = 8, float_share = 9, losses_of_contact = 10, &
       & drive_torque = 11, loss_torque = 12, damping_torque = 13, smallest_pivot_force = 14, tension_share = 15, &
-      & surge_force = 16, coil_ratio = 17, event_pivot_force = 18, lift_at_nose = 19, speed_at_nose = 20, residual_work = 25, &
-      & lowest_plunger = 26, highest_plunger = 27, largest_pressure = 28, leak_volume = 29, check_share = 30, &
-      & gallery_torque = 31, event_check_share = 32
+      & surge_force = 16, coil_ratio = 17, event_pivot_force = 18, lift_at_nose = 19, speed_at_nose = 20, smallest_lift = 25, &
+      & seated_share = 26, closed_load = 27, residual_work = 28, lowest_plunger = 29, highest_plunger = 30, &
+      & largest_pressure = 31, leak_volume = 32, check_share = 33, gallery_torque = 34, event_check_share = 35
    !> Places of the energies lost in the dampers, in the order of `powers_t`; the last four are of the adjuster
-   integer, parameter :: damper_works(damper_count) = [21, 22, 23, 24, 33, 34, 35, 36]
+   integer, parameter :: damper_works(damper_count) = [21, 22, 23, 24, 36, 37, 38, 39]
 
    !> The measures; those of the adjuster last
    type(measure_t), parameter :: measures(*) = [ &
@@ -63,7 +65,7 @@ module camroller_flexible_measures
       & measure_t("dynamic_load_min", "N", "smallest contact load with the valve in the upper three quarters of its lift"), &
       & measure_t("lift_error_min", "m", "smallest lift less that of a rigid train"), &
       & measure_t("lift_error_max", "m", "largest lift less that of a rigid train"), &
-      & measure_t("seating_speed", "m s-1", "largest speed at which the valve meets its seat"), &
+      & measure_t("seating_speed", "m s-1", "largest speed at which the valve meets its seat; 0 where it does not close"), &
       & measure_t("bounce_height", "m", "largest lift after the valve has first met its seat"), &
       & measure_t("bounces", "1", "times that the valve leaves its seat after it has first met it"), &
       & measure_t("float_share", "1", "part of the cycle with the rigid train in its event and no load between cam and roller"), &
@@ -82,6 +84,9 @@ module camroller_flexible_measures
       & measure_t("damping_work_pad", "J", "energy lost per turn in the damping of the pad at the valve"), &
       & measure_t("damping_work_seat", "J", "energy lost per turn in the damping of the valve seat"), &
       & measure_t("damping_work_spring", "J", "energy lost per turn in the damping of the spring's modes"), &
+      & measure_t("least_valve_lift", "m", "smallest lift of the turn; above 0 where the valve does not close"), &
+      & measure_t("seated_share", "1", "part of the cycle with the valve on its seat"), &
+      & measure_t("closed_load_max", "N", "largest contact load with the rigid train's valve closed"), &
       & measure_t("energy_residual_work", "J", "drive less losses less stored energy over the turn, and gallery"), &
       & measure_t("plunger_lowest", "m", "lowest place of the plunger"), &
       & measure_t("plunger_highest", "m", "highest place of the plunger"), &
@@ -89,8 +94,8 @@ module camroller_flexible_measures
       & measure_t("leak_volume", "m3", "oil that leaks along the plunger in a turn"), &
       & measure_t("check_valve_share", "1", "part of the cycle with the check valve open"), &
       & measure_t("gallery_torque", "N m", "mean power from the oil gallery over the cam's speed"), &
-      & measure_t("pump_up_share", "1", "part of the cycle with the check valve open with the valve in the upper three "// &
-      & "quarters of its lift"), &
+      & measure_t("pump_up_share", "1", "part of the cycle with the check valve open and the plunger off its lower stop in the "// &
+      & "event"), &
       & measure_t("damping_work_plunger", "J", "energy lost per turn in the oil film between plunger and bore"), &
       & measure_t("damping_work_stops", "J", "energy lost per turn in the damping of the plunger's stops"), &
       & measure_t("damping_work_leak", "J", "energy lost per turn by the oil that leaks along the plunger"), &
@@ -99,6 +104,8 @@ module camroller_flexible_measures
    integer, parameter :: measure_count(2) = [residual_work, size(measures)]
    !> Part of the largest lift above which a load counts as one of the event [-]
    real(wp), parameter :: event_part = 0.25_wp
+   !> Part of the largest lift below which a table's noise may be all that rises [-]
+   real(wp), parameter :: noise_part = 1.0e-3_wp
    !> Points of the rule for a step
    integer, parameter :: points = 3
 
@@ -125,7 +132,7 @@ contains
 
       call gauss_legendre(places, weights)
       values = 0.0_wp
-      values([smallest_event_load, least_lift_error, smallest_pivot_force, event_pivot_force]) = huge(1.0_wp)
+      values([smallest_event_load, least_lift_error, smallest_pivot_force, event_pivot_force, smallest_lift]) = huge(1.0_wp)
       values(most_lift_error) = -huge(1.0_wp)
       if (size(values) > residual_work) then
          values(lowest_plunger) = huge(1.0_wp)
@@ -149,8 +156,8 @@ contains
          if (allocated(error)) return
          if (has_touched .and. .not. touches) values(losses_of_contact) = values(losses_of_contact) + 1.0_wp
          has_touched = touches
-         ! What the valve does before it opens is no bounce, be it the rattle of a finger with lash
-         if (last%angle < 0.0_wp .and. last%height > -event_part*top) has_met = .false.
+         ! What the valve does before it opens is no bounce, be it the rattle of a finger with lash or a second lift
+         if (last%is_rising) has_met = .false.
          call follow_seat(trajectory%state([at_lift, at_speed], step), trajectory%state([at_lift, at_speed], step + 1), has_met, &
             & values)
       end do
@@ -209,8 +216,8 @@ contains
       type(powers_t) :: powers
       type(position_t) :: position
       type(sample_t) :: sample
-      ! Lift less that of a rigid train [m], smallest force in the joint between the last points [N]
-      real(wp) :: lift_error, least
+      ! Smallest force in the joint between the last points [N]
+      real(wp) :: least
       integer :: status
 
       touches = .false.
@@ -226,12 +233,13 @@ contains
          values(largest_load) = now%contact%load
          values(largest_load_angle) = angle
       end if
-      if (position%lift > 0.0_wp .and. .not. now%contact%load > 0.0_wp) values(float_share) = values(float_share) + weight
-      lift_error = state(at_lift) - position%lift
-      values(least_lift_error) = min(values(least_lift_error), lift_error)
-      values(most_lift_error) = max(values(most_lift_error), lift_error)
-      sample = sample_t(angle, position%lift - event_part*top, now%contact%load, pivot_force(model, state, now), 0.0_wp)
-      if (allocated(model%flexible%adjuster)) sample%shut = now%pressure - opening_pressure(model%flexible%adjuster)
+      call add_lift(state(at_lift), position%lift, noise_part*top, now%contact%load, weight, values)
+      sample = sample_t(angle, position%lift - event_part*top, now%contact%load, pivot_force(model, state, now), 0.0_wp, &
+         & position%lift_slope > 0.0_wp .and. position%lift > noise_part*top)
+      if (allocated(model%flexible%adjuster)) then
+         sample%shut = now%pressure - opening_pressure(model%flexible%adjuster)
+         sample%is_low = now%pivot <= model%flexible%adjuster%given%lowest
+      end if
       call add_interval(last, sample, values)
       least = least_joint_force(last, sample)
       values(smallest_pivot_force) = min(values(smallest_pivot_force), sample%joint, least)
@@ -254,6 +262,25 @@ contains
       values(leak_volume) = values(leak_volume) + weight*now%flows%leak/model%speed
       values(gallery_torque) = values(gallery_torque) + weight*powers%gallery/model%speed
    end subroutine add_point
+
+   !> Take a lift, and the load at it, into the measures.
+   pure subroutine add_lift(lift, rigid, noise, load, weight, values)
+      !> Lift of the valve, that of a rigid train, and what of the latter may be noise of a table [m]
+      real(wp), intent(in) :: lift, rigid, noise
+      !> Contact load [N]
+      real(wp), intent(in) :: load
+      !> Part of the turn that it stands for [-]
+      real(wp), intent(in) :: weight
+      !> The measures [unit of the measure]
+      real(wp), intent(inout) :: values(:)
+
+      if (rigid > 0.0_wp .and. .not. load > 0.0_wp) values(float_share) = values(float_share) + weight
+      if (.not. rigid > noise) values(closed_load) = max(values(closed_load), load)
+      values(smallest_lift) = min(values(smallest_lift), lift)
+      if (lift <= 0.0_wp) values(seated_share) = values(seated_share) + weight
+      values(least_lift_error) = min(values(least_lift_error), lift - rigid)
+      values(most_lift_error) = max(values(most_lift_error), lift - rigid)
+   end subroutine add_lift
 
    !> Take the interval between two points into the measures: where the event begins or ends in it, and what opens or closes.
    pure subroutine add_interval(last, sample, values)
@@ -279,6 +306,7 @@ contains
       if (size(values) == residual_work) return
       open = negative_part(last%shut, sample%shut)
       values(check_share) = values(check_share) + length*open
+      if (last%is_low .and. sample%is_low) return
       if (min(last%height, sample%height) >= 0.0_wp) values(event_check_share) = values(event_check_share) + length*open
    end subroutine add_interval
 

@@ -15,7 +15,8 @@ module camroller_flexible_solution
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, at_sliding
    use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, extrapolate, is_possible, rest_of_train
    use camroller_flexible_turn, only : turn_t, start_turns, set_tolerance, integrate_turn
-   use camroller_flexible_measures, only : measure_count, measure_turn
+   use camroller_flexible_measures, only : measure_count, measure_turn, seating_speed, smallest_lift
+   use camroller_flexible_trend, only : find_trend, trend_t
    implicit none
    private
 
@@ -25,6 +26,9 @@ module camroller_flexible_solution
    integer, parameter :: statistical_turns = 40
    !> Cycles that are allowed at least
    integer, parameter :: least_cycles = 40
+   !> Steps of all turns together after which a train is given up: ten times as many as a usual train takes without a period, and a
+   !> minute of work
+   integer, parameter :: most_work = 2000000
    !> Method for a single unknown, which the roller alone is, and the one that takes its place
    character(len=*), parameter :: single_method = "hermite"
    character(len=*), parameter :: chosen_method = "rodas5p"
@@ -49,6 +53,10 @@ module camroller_flexible_solution
       real(wp), allocatable :: values(:, :)
       !> Means of the measures over the turns, their standard deviations, smallest and largest [unit of the measure]
       real(wp), allocatable :: mean(:), deviation(:), lowest(:), highest(:)
+      !> How the turns for statistics change from one to the next
+      type(trend_t) :: trend
+      !> Turns that were allowed for a period
+      integer :: max_cycles = 0
       !> The last turn again, with a finer tolerance, and what its integration did not tell apart
       type(trajectory_t) :: finer
       type(resolution_t) :: finer_resolution
@@ -86,8 +94,10 @@ contains
       solution%cycle%tolerance = tolerance_ratio*numerics%tolerance
       call start_turns(turn, model, method, solution%cycle%tolerance, error)
       if (.not. allocated(error)) call rest_of_train(model, state, error)
+      solution%max_cycles = max(least_cycles, numerics%max_cycles)
+      turn%most_work = most_work
       if (.not. allocated(error)) call find_periodic(solution%cycle, turn, state, closure_ratio*solution%cycle%tolerance, &
-         & max(least_cycles, numerics%max_cycles), error)
+         & solution%max_cycles, error)
       call add_context(error, "integrating the flexible train")
       if (allocated(error)) return
       count = merge(solution%cycle%period, statistical_turns, solution%cycle%period > 0)
@@ -101,10 +111,28 @@ contains
             if (allocated(error)) return
          end do
          solution%cycle%trajectory = solution%turns(count)
+         if (solution%cycle%period == 0) call note_trend(solution, turn%scales)
       end if
       call take_measures(solution, model, error)
       if (.not. allocated(error)) call estimate_error(solution, turn, error)
    end subroutine solve_flexible
+
+   !> How the turns for statistics change from one to the next.
+   subroutine note_trend(solution, scales)
+      !> The solution, with its turns
+      type(flexible_solution_t), intent(inout) :: solution
+      !> Sizes of the components [state]
+      real(wp), intent(in) :: scales(:)
+
+      ! Starts of the turns, in units of the scales [-]
+      real(wp) :: starts(size(scales), size(solution%turns))
+      integer :: i
+
+      do i = 1, size(solution%turns)
+         starts(:, i) = solution%turns(i)%state(:, 1)/scales
+      end do
+      call find_trend(starts, solution%trend)
+   end subroutine note_trend
 
    !> Method that integrates a flexible train: the one given, or another in the place of that for a single unknown.
    pure function train_method(numerics) result(method)
@@ -134,13 +162,40 @@ contains
          call measure_turn(model, solution%turns(i), solution%cycle%resolution, solution%values(:, i), error)
          if (allocated(error)) return
       end do
+      n = size(solution%values, 1)
+      allocate (solution%mean(n), solution%deviation(n), solution%lowest(n), solution%highest(n))
       associate (values => solution%values)
-         solution%mean = sum(values, 2)/n
-         solution%lowest = minval(values, 2)
-         solution%highest = maxval(values, 2)
-         solution%deviation = sqrt(sum((values - spread(solution%mean, 2, n))**2, 2)/max(1, n - 1))
+         do i = 1, n
+            if (i == seating_speed) then
+               call describe(pack(values(i, :), values(smallest_lift, :) <= 0.0_wp), solution, i)
+            else
+               call describe(values(i, :), solution, i)
+            end if
+         end do
       end associate
    end subroutine take_measures
+
+   !> Mean, scatter and range of a measure over turns; zero where no turn has it.
+   subroutine describe(values, solution, place)
+      !> The measure in the turns that have it [unit of the measure]
+      real(wp), intent(in) :: values(:)
+      !> Gets them
+      type(flexible_solution_t), intent(inout) :: solution
+      !> Number of the measure
+      integer, intent(in) :: place
+
+      associate (mean => solution%mean(place), n => size(values))
+         mean = 0.0_wp
+         solution%deviation(place) = 0.0_wp
+         solution%lowest(place) = 0.0_wp
+         solution%highest(place) = 0.0_wp
+         if (n == 0) return
+         mean = sum(values)/n
+         solution%deviation(place) = sqrt(sum((values - mean)**2)/max(1, n - 1))
+         solution%lowest(place) = minval(values)
+         solution%highest(place) = maxval(values)
+      end associate
+   end subroutine describe
 
    !> Error of the last turn: its difference from one with a finer tolerance, which errs less and starts where that has its periodic
    !> state.

@@ -3,9 +3,10 @@ module test_flexible_periods
    use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
    use camroller_kinds, only : wp, pi
    use camroller_case, only : case_t
-   use camroller_error, only : error_t
+   use camroller_error, only : error_t, kind_domain
    use camroller_model, only : model_t
    use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, rest_of_train
+   use camroller_flexible_trend, only : find_trend, trend_t
    use camroller_flexible_turn, only : start_turns, turn_t
    use camroller_flexible_train, only : at_finger, at_lift, at_plunger
    use camroller_number_text, only : integer_text, number_text
@@ -36,7 +37,9 @@ contains
          new_unittest("an adjuster that stands 30 um too high leaks down to the state that it has from rest, in few cycles", &
             & test_drift), &
          new_unittest("a cycle whose disturbances come back with the other sign, and larger, is not found", test_unstable), &
-         new_unittest("a state that loses a hundredth a turn is extrapolated from three turns", test_extrapolation) &
+         new_unittest("a state that loses a hundredth a turn is extrapolated from three turns", test_extrapolation), &
+         new_unittest("a train that takes more steps than it may is given up with words for its fastest part", test_work), &
+         new_unittest("turns that drift or approach a period are told from those that scatter", test_trend) &
          ]
    end subroutine collect_flexible_periods
 
@@ -145,6 +148,63 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_unstable
+
+   !> A turn takes two thousand steps.
+   subroutine test_work(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(turn_t) :: turn
+      type(flexible_cycle_t) :: cycle
+      type(error_t), allocatable :: failure
+      ! State [state]
+      real(wp), allocatable :: state(:)
+
+      the_case = thesis_case()
+      call set_point(the_case, 10.0_wp*pi, 0.01_wp)
+      call add_dynamics(the_case, 5, .true.)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call start_turns(turn, model, "rodas5p", tolerance, failure)
+      turn%most_work = 300
+      if (.not. allocated(failure)) call rest_of_train(model, state, failure)
+      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, closure, 5, failure)
+      call check(error, allocated(failure), "the work has no end")
+      if (allocated(error)) return
+      ! The ball of the check valve: oil of 8.6e7 Pa in 0.3 cm^3, and 0.1 mm^3/s more a pascal
+      call check(error, failure%kind == kind_domain .and. index(failure%message, "its turns take more than 300 steps; the "// &
+         & "fastest part of the train, with ") == 1 .and. index(failure%message, "is that of lash_adjuster.check_area_mm2") > 0, &
+         & failure%message)
+   end subroutine test_work
+
+   !> Starts of 40 turns: of a chaotic map, the same on a slope, and what approaches a fixed point or a period of two.
+   subroutine test_trend(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 40
+      ! Starts [-]
+      real(wp) :: chaos(1, n), starts(1, n)
+      type(trend_t) :: trend
+      integer :: i
+
+      chaos(1, 1) = 0.3_wp
+      do i = 2, n
+         chaos(1, i) = 3.9_wp*chaos(1, i - 1)*(1.0_wp - chaos(1, i - 1))
+      end do
+      call find_trend(chaos, trend)
+      call check(error, .not. trend%drifts .and. trend%approached == 0, "a chaotic map has a trend")
+      if (allocated(error)) return
+      starts(1, :) = chaos(1, :) + [(0.05_wp*i, i=1, n)]
+      call find_trend(starts, trend)
+      call check(error, trend%drifts .and. trend%approached == 0, "a drift is not seen")
+      if (allocated(error)) return
+      starts(1, :) = [(0.9_wp**i, i=1, n)]
+      call find_trend(starts, trend)
+      call check(error, trend%approached, 1, "a fixed point")
+      if (allocated(error)) return
+      starts(1, :) = [((-1.0_wp)**i*(1.0_wp + 0.95_wp**i), i=1, n)]
+      call find_trend(starts, trend)
+      call check(error, trend%approached, 2, "a period of two")
+   end subroutine test_trend
 
    !> Turns of a linear map: the first component loses a hundredth a turn, the second nine tenths, to a fixed point at 1 and 2.
    subroutine test_extrapolation(error)
