@@ -146,9 +146,10 @@ contains
 
       call add(commands, "limit", "DECK", "speeds up to which the train follows its cam", &
          & "Find the lowest speeds at which the joint of the pivot unloads, the lash adjuster pumps up, cam and roller"//n// &
-         & "part in the event, and the valve meets its seat too fast: for the deck without its &sweep, whatever its speed."//n// &
-         & "Those of the rigid train follow from its forces. A train with &dynamics is run at one speed after another, and"//n// &
-         & "between two of them where a limit was passed, with a tolerance of 1e-4 where the deck gives none. Prints a table.")
+         & "part in the upper 3/4 of the lift, and the valve meets its seat too fast or no longer closes: for the deck"//n// &
+         & "without its &sweep, whatever its speed. Those of the rigid train follow from its forces. A train with &dynamics"//n// &
+         & "is run at one speed after another, and between two of them where a limit was passed, with a tolerance of 1e-4"//n// &
+         & "where the deck gives none; a limit that is passed and regained within a step is not seen. Prints a table.")
       call add_option(commands, "--to", "", "SPEED", "highest speed tried [rev/min]; 6000 where not given")
       call add_option(commands, "--step", "", "SPEED", "step of the speeds tried [rev/min]; 100 where not given")
       call add_option(commands, "--seating", "", "SPEED", "speed of the valve at its seat that is too fast [m/s]; 0.5 where "// &

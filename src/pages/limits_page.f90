@@ -3,7 +3,8 @@
 !> In: a search that has ended. Out: text.
 module camroller_limits_page
    use camroller_kinds, only : wp, pi
-   use camroller_limit_speeds, only : adjuster_limit, joint_limit, limit_names, limits_t, seating_limit
+   use camroller_limit_speeds, only : adjuster_limit, closing_limit, joint_limit, limit_names, limits_t, &
+      & seating_limit
    use camroller_number_text, only : integer_text, number_text, right_text
    implicit none
    private
@@ -14,7 +15,7 @@ module camroller_limits_page
    !> Rev/min in a rad/s [-]
    real(wp), parameter :: per_minute = 30.0_wp/pi
    !> Widths of the columns
-   integer, parameter :: first_width = 46, speed_width = 18
+   integer, parameter :: first_width = 50, speed_width = 16
 
 contains
 
@@ -29,7 +30,8 @@ contains
       character(len=:), allocatable :: line, words
       integer :: limit
 
-      text = "Lowest speed of the camshaft at which ...     "//right_text("rigid train", speed_width)
+      name = "Lowest speed of the camshaft found at which ..."
+      text = name//right_text("rigid train", speed_width)
       if (search%is_flexible) text = text//right_text("flexible train", speed_width)
       do limit = 1, size(search%rigid)
          name = limit_names(limit)
@@ -40,14 +42,15 @@ contains
          if (search%is_flexible) then
             call flexible_text(search, limit, words)
             line = line//right_text(words, speed_width)
-            call period_text(search, limit, words)
+            call comment_text(search, limit, words)
             line = line//words
          end if
          text = text//n//trim(line)
       end do
       if (search%is_flexible) then
          text = text//n//"speeds in rev/min; the flexible train was tried at "//integer_text(search%done)// &
-            & " speeds, in steps of "//number_text(search%step*per_minute, 5)//" and then to 1"
+            & " speeds, in steps of "//number_text(search%step*per_minute, 5)//" and then to 1"//n// &
+            & "a limit that is passed and regained within a step is not seen: try a smaller --step"
       else
          text = text//n//"speeds in rev/min; the rigid train by its forces without friction, which follow the "// &
             & "square of the speed"
@@ -64,7 +67,7 @@ contains
       !> The words
       character(len=:), allocatable, intent(out) :: words
 
-      if (limit == seating_limit) then
+      if (limit == seating_limit .or. limit == closing_limit) then
          words = "-"
       else if (search%rigid(limit) < 0.0_wp) then
          words = "finger_kg?"
@@ -90,12 +93,14 @@ contains
       else if (search%above(limit) <= search%highest) then
          words = number_text(search%above(limit)*per_minute, 5)
       else
-         words = "above "//number_text(search%below(limit)*per_minute, 5)
+         words = "above "//number_text(merge(min(search%below(limit), search%above(closing_limit)), search%below(limit), &
+            & limit == seating_limit)*per_minute, 5)
       end if
    end subroutine flexible_text
 
-   !> How the train repeats itself at a limit, where it does not do so in each cycle.
-   subroutine period_text(search, limit, words)
+   !> What else there is to say of a limit: where the train does not repeat itself in each cycle, where it is regained, and where
+   !> the valve has no speed of seating.
+   subroutine comment_text(search, limit, words)
       !> The search
       type(limits_t), intent(in) :: search
       !> Which limit
@@ -104,9 +109,13 @@ contains
       character(len=:), allocatable, intent(out) :: words
 
       words = ""
-      if (.not. search%above(limit) <= search%highest .or. search%period(limit) == 1) return
-      words = "   without a period"
-      if (search%period(limit) > 1) words = "   with a period of "//integer_text(search%period(limit))//" cycles"
-   end subroutine period_text
+      if (limit == seating_limit .and. search%above(closing_limit) < min(search%highest, search%above(limit))) words = &
+         & "   from "//number_text(search%above(closing_limit)*per_minute, 5)//" on it does not close"
+      if (.not. search%above(limit) <= search%highest) return
+      if (search%period(limit) == 0) words = words//"   without a period"
+      if (search%period(limit) > 1) words = words//"   with a period of "//integer_text(search%period(limit))//" cycles"
+      if (search%regained(limit) <= search%highest) words = words//"   regained at "// &
+         & number_text(search%regained(limit)*per_minute, 5)
+   end subroutine comment_text
 
 end module camroller_limits_page

@@ -1,5 +1,5 @@
 !> Speeds up to which a train does what its cam asks for: the first at which the pivot's joint unloads, the adjuster pumps up, cam
-!> and roller part in the event, the valve meets its seat too fast.
+!> and roller part in the event, the valve meets its seat too fast, or no longer does.
 !>
 !> In: a case, the range of speeds. Out: those of the rigid train by the formulas of its margins; those of a flexible train by a
 !> scan upwards in even steps and halving where one is passed, on periodic states, or on 40 cycles where there is none. What a train
@@ -11,7 +11,7 @@ module camroller_limit_speeds
    use camroller_error, only : error_t, add_context
    use camroller_events, only : cycle_stops, find_stops
    use camroller_flexible_measures, only : event_check_share, event_pivot_force, seating_speed, smallest_event_load, &
-      & smallest_pivot_force
+      & smallest_lift, smallest_pivot_force
    use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
    use camroller_margins, only : find_margins, margins_t
    use camroller_model, only : model_t
@@ -20,13 +20,16 @@ module camroller_limit_speeds
    implicit none
    private
 
-   public :: limits_t, limit_names, start_limits, try_speed, joint_limit, adjuster_limit, contact_limit, seating_limit
+   public :: limits_t, limit_names, start_limits, try_speed, joint_limit, adjuster_limit, contact_limit, seating_limit, &
+      & closing_limit
 
    !> Places of the limits
-   integer, parameter :: joint_limit = 1, adjuster_limit = 2, contact_limit = 3, seating_limit = 4, limit_count = 4
+   integer, parameter :: joint_limit = 1, adjuster_limit = 2, contact_limit = 3, seating_limit = 4, closing_limit = 5, &
+      & limit_count = 5
    !> What happens at them
-   character(len=*), parameter :: limit_names(*) = [character(len=40) :: "the joint of the pivot unloads", &
-      & "the lash adjuster pumps up", "cam and roller part in the event", "the valve meets its seat faster than"]
+   character(len=*), parameter :: limit_names(*) = [character(len=48) :: "the joint of the pivot unloads", &
+      & "the lash adjuster pumps up", "cam and roller part in the upper 3/4 of the lift", "the valve meets its seat faster than", &
+      & "the valve no longer closes"]
    !> Tolerance of the integration where the case gives none [-]
    real(wp), parameter :: usual_tolerance = 1.0e-4_wp
    !> Width at which halving ends [rad/s]: 1 rev/min
@@ -44,6 +47,8 @@ module camroller_limit_speeds
       logical :: is_flexible = .false., has_adjuster = .false., has_lash = .false.
       !> Highest speed that was tried and lies below a limit, lowest that lies above it, as far as there is one [rad/s]
       real(wp) :: below(limit_count) = 0.0_wp, above(limit_count) = huge(1.0_wp)
+      !> Lowest speed tried above the latter at which the train is not beyond the limit, as far as there is one [rad/s]
+      real(wp) :: regained(limit_count) = huge(1.0_wp)
       !> Cycles of the period at the latter; 0 where there is none
       integer :: period(limit_count) = 0
       !> Speeds that have been tried, and as many as there will be at most
@@ -129,6 +134,7 @@ contains
          return
       end if
       do limit = 1, limit_count
+         if (speed > search%above(limit) .and. .not. is_passed(limit)) search%regained(limit) = min(search%regained(limit), speed)
          if (speed <= search%below(limit) .or. speed >= search%above(limit)) cycle
          if (is_passed(limit)) then
             search%above(limit) = speed
@@ -205,6 +211,7 @@ contains
             & search%has_lash)) < 0.0_wp
          is_passed(contact_limit) = is_passed(contact_limit) .or. .not. solution%lowest(smallest_event_load) > 0.0_wp
          is_passed(seating_limit) = is_passed(seating_limit) .or. solution%highest(seating_speed) > search%seating
+         is_passed(closing_limit) = is_passed(closing_limit) .or. solution%highest(smallest_lift) > 0.0_wp
          if (search%has_adjuster) is_passed(adjuster_limit) = is_passed(adjuster_limit) .or. &
             & solution%highest(event_check_share) > 0.0_wp
          if (solution%cycle%period /= 1 .and. period > 0) period = solution%cycle%period
