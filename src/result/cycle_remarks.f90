@@ -13,7 +13,7 @@ module camroller_cycle_remarks
    use camroller_events, only : contact_losses
    use camroller_film, only : law_masjedi_khonsari_rough
    use camroller_film_range, only : matters, range_in_words
-   use camroller_flexible_report, only : judge_train
+   use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : margins_t
    use camroller_follower_samples, only : thinnest_film_allowed => thinnest_film

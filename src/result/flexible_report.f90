@@ -1,34 +1,30 @@
-!> What a result has of a flexible train: means over its turns, scalars with their scatter, the turns one by one, remarks.
+!> What a result has of a flexible train: means over its turns, scalars with their scatter, the turns one by one.
 !>
 !> In: the solution of a lobe's train. Out: means and rows of all series, as those of a rigid train; scalars for the summary, and
-!> the same of each turn where there are several; remarks, or an error where the case forbids what happens. Each step is integrated
-!> with its own curve; turns of a period, or those for statistics where there is none, count alike.
+!> the same of each turn where there are several. Each step is integrated with its own curve; turns of a period, or those for
+!> statistics where there is none, count alike.
 module camroller_flexible_report
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_case, only : case_t
    use camroller_catalogue, only : lobe_prefix, series_values
    use camroller_cycle, only : cycle_t
-   use camroller_engine, only : write_speed
-   use camroller_error, only : error_t, kind_convergence, kind_domain, raise
+   use camroller_error, only : error_t, kind_convergence, raise
    use camroller_extremes, only : add_sample, samples_t, start_samples
    use camroller_flexible_cycle, only : longest_period
    use camroller_flexible_follower, only : evaluate_follower
    use camroller_flexible_parts, only : damper_count, damper_series, dampers_without_adjuster
-   use camroller_flexible_measures, only : bounce_height, bounces, closed_load, coil_ratio, event_check_share, &
-      & highest_plunger, largest_lift, largest_load, largest_load_angle, losses_of_contact, lowest_plunger, measures, &
-      & seating_speed, smallest_lift, smallest_pivot_force, tension_share
+   use camroller_flexible_measures, only : largest_load_angle, measures
    use camroller_flexible_solution, only : error_share, flexible_solution_t, statistical_turns
-   use camroller_flexible_train, only : at_lift, resolution_t
+   use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle
    use camroller_follower_samples, only : add_shares, shares_t
    use camroller_kinds, only : two_pi, wp
    use camroller_lash_adjuster, only : relative_volume
    use camroller_model, only : model_t
-   use camroller_number_text, only : integer_text, number_text
+   use camroller_number_text, only : integer_text
    use camroller_quadrature, only : gauss_legendre
-   use camroller_remarks, only : add_remark, bouncing_valve, clashing_coils, long_period, lost_contact, missing_lift, &
-      & no_period, open_pivot, open_valve, pressed_seat, remark_t, sinking_plunger, rising_plunger, stopped_plunger
-   use camroller_result, only : append_quantity, find_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, take_quantities
+   use camroller_result, only : append_quantity, find_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, &
+      & take_quantities
    use camroller_state, only : state_t
    use camroller_torque_list, only : is_loss, of_residual, of_roller_inertia, torque_count, torque_series
    use camroller_train_outlook, only : find_outlook, outlook_t
@@ -36,7 +32,7 @@ module camroller_flexible_report
    implicit none
    private
 
-   public :: flexible_means_t, integrate_turns, compare_turns, add_outlook, add_train_scalars, list_turns, judge_train
+   public :: flexible_means_t, integrate_turns, compare_turns, add_outlook, add_train_scalars, list_turns
 
    !> Turns that a result may list
    integer, parameter, public :: most_turns = max(longest_period, statistical_turns)
@@ -351,178 +347,5 @@ contains
             & integer_text(n)//" with the lift of a rigid train", "dynamics", outlook%surge(n), scope)
       end do
    end subroutine add_outlook
-
-   !> Remarks on a train.
-   subroutine judge_train(model, solution, lost_share, remarks, error)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Solution of its train
-      type(flexible_solution_t), intent(in) :: solution
-      !> Fraction of the cycle without contact [-]
-      real(wp), intent(in) :: lost_share
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-      !> Domain error where the case forbids what happens
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: text, speed
-
-      call write_speed(model%speed, model%crank_turns, 6, speed)
-      call judge_period(model, solution, speed, remarks)
-      call judge_lift(model, solution, speed, remarks)
-      if (lost_share > 0.0_wp) then
-         text = "cam and roller lose contact "//number_text(solution%mean(losses_of_contact), 3)//" times per cycle, for "// &
-            & number_text(100.0_wp*lost_share, 3)//" % of it, at "//speed
-         if (model%stops_without_contact .and. model%flexible%lash <= 0.0_wp) then
-            call raise(error, kind_domain, text//" (contact_policy = 'stop')")
-            return
-         end if
-         call add_remark(remarks, lost_contact, text, 100.0_wp*lost_share)
-      end if
-      if (solution%lowest(smallest_pivot_force) < 0.0_wp) then
-         call add_remark(remarks, open_pivot, "the joint of finger and pivot is in tension for "// &
-            & number_text(100.0_wp*solution%mean(tension_share), 3)//" % of the cycle, by up to "// &
-            & number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//speed// &
-            & "; the model keeps it closed, a real one opens", -solution%lowest(smallest_pivot_force))
-      end if
-      if (solution%highest(bounces) > 0.0_wp) then
-         call add_remark(remarks, bouncing_valve, "the valve bounces "//number_text(solution%mean(bounces), 3)// &
-            & " times per cycle, by up to "//number_text(1.0e6_wp*solution%highest(bounce_height), 3)//" um, after meeting its "// &
-            & "seat at up to "//number_text(solution%highest(seating_speed), 3)//" m/s, at "//speed, &
-            & solution%highest(seating_speed))
-      end if
-      call judge_seat(model, solution, speed, remarks)
-      if (allocated(model%flexible%adjuster)) call judge_plunger(model, solution, speed, remarks)
-      if (solution%highest(coil_ratio) > 1.0_wp) then
-         call add_remark(remarks, clashing_coils, "coils of the spring may clash: its modes move them by up to "// &
-            & number_text(solution%highest(coil_ratio), 3)//" times what the spring is compressed by, which is not computed", &
-            & solution%highest(coil_ratio))
-      end if
-   end subroutine judge_train
-
-   !> Remark on a valve that opens by much less than its cam would lift it.
-   subroutine judge_lift(model, solution, speed, remarks)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Solution of its train
-      type(flexible_solution_t), intent(in) :: solution
-      !> Its speed in words
-      character(len=*), intent(in) :: speed
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      ! Part of the largest lift that may be missing [-]: compliance, lash and leak together take less
-      real(wp), parameter :: most_missing = 0.1_wp
-      ! Largest lift of a rigid train, and of the turn that has least [m]
-      real(wp) :: wanted, reached
-      integer :: turn
-
-      wanted = largest_lift(model)
-      reached = wanted
-      do turn = 1, size(solution%turns)
-         associate (trajectory => solution%turns(turn))
-            reached = min(reached, maxval(trajectory%state(at_lift, :trajectory%count)))
-         end associate
-      end do
-      if (reached >= (1.0_wp - most_missing)*wanted) return
-      call add_remark(remarks, missing_lift, "the valve opens by "//number_text(1.0e3_wp*max(0.0_wp, reached), 3)//" mm at "// &
-         & speed//", where its cam would lift it by "//number_text(1.0e3_wp*wanted, 3)//" mm; the finger yields by what is "// &
-         & "missing: are the stiffnesses of &dynamics, in N/m, and lash and adjuster right?", 100.0_wp*(1.0_wp - reached/wanted))
-   end subroutine judge_lift
-
-   !> Remarks on the seat: the valve stays off it, or gas presses the valve into it.
-   subroutine judge_seat(model, solution, speed, remarks)
-      !> Model
-      type(model_t), intent(in) :: model
-      !> Solution of its train
-      type(flexible_solution_t), intent(in) :: solution
-      !> Its speed in words
-      character(len=*), intent(in) :: speed
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      if (solution%highest(smallest_lift) > 0.0_wp) call add_remark(remarks, open_valve, "the valve does not close"// &
-         & trim(merge(" in some cycles", "               ", .not. solution%lowest(smallest_lift) > 0.0_wp))//": it stays open "// &
-         & "by at least "//number_text(1.0e3_wp*solution%highest(smallest_lift), 3)//" mm at "//speed, &
-         & solution%highest(smallest_lift))
-      if (.not. allocated(model%gas)) return
-      if (solution%highest(closed_load) < solution%highest(largest_load)) return
-      call add_remark(remarks, pressed_seat, "the gas presses the closed valve into its seat and the finger onto the cam: up "// &
-         & "to "//number_text(solution%highest(closed_load), 4)//" N there, the largest load of the cycle, at "//speed// &
-         & "; dynamics.seat_stiffness_N_m decides how much", solution%highest(closed_load))
-   end subroutine judge_seat
-
-   !> Remarks on the plunger of a lash adjuster.
-   subroutine judge_plunger(model, solution, speed, remarks)
-      !> Model of the lobe, with an adjuster
-      type(model_t), intent(in) :: model
-      !> Solution of the train of a lobe
-      type(flexible_solution_t), intent(in) :: solution
-      !> Its speed in words
-      character(len=*), intent(in) :: speed
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      ! Way below its rest from which on it sinks far: as high as the closing ramps of cams for adjusters, beyond which the valve
-      ! meets its seat at the speed of the flank [m]
-      real(wp), parameter :: far = 1.0e-4_wp
-      ! Way below its rest [m]
-      real(wp) :: sink
-
-      associate (given => model%flexible%adjuster%given, highest => solution%highest(highest_plunger), &
-         & lowest => solution%lowest(lowest_plunger))
-         if (solution%highest(event_check_share) > 0.0_wp) then
-            call add_remark(remarks, rising_plunger, "the lash adjuster pumps up: its check valve opens for "// &
-               & number_text(100.0_wp*solution%mean(event_check_share), 3)//" % of the cycle while the valve is open, and the "// &
-               & "plunger stands up to "//number_text(1.0e3_wp*(highest - model%flexible%pivot_place), 3)//" mm above its "// &
-               & "rest, at "//speed, 100.0_wp*solution%mean(event_check_share))
-         end if
-         if (highest > given%highest) call add_remark(remarks, stopped_plunger, "the plunger of the lash adjuster reaches its "// &
-            & "upper stop at "//speed//": it rises no further", highest - given%highest)
-         if (lowest < given%lowest) call add_remark(remarks, stopped_plunger, "the plunger of the lash adjuster sinks onto its "// &
-            & "lower stop at "//speed//": the stop carries the train, and no longer the oil", given%lowest - lowest)
-         sink = model%flexible%pivot_place - lowest
-         if (sink > far) call add_remark(remarks, sinking_plunger, "the plunger of the lash adjuster sinks by "// &
-            & number_text(1.0e3_wp*sink, 3)//" mm below its rest at "//speed//", more than a closing ramp is high: the valve "// &
-            & "loses lift and meets its seat early", sink)
-      end associate
-   end subroutine judge_plunger
-
-   !> Remark on a cycle that does not repeat itself, or only after several turns.
-   subroutine judge_period(model, solution, speed, remarks)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Solution of the train of a lobe
-      type(flexible_solution_t), intent(in) :: solution
-      !> Its speed in words
-      character(len=*), intent(in) :: speed
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      character(len=:), allocatable :: text
-
-      if (solution%cycle%period == 1) return
-      if (solution%cycle%period > 1) then
-         call add_remark(remarks, long_period, "the motion of the train repeats after "//integer_text(solution%cycle%period)// &
-            & " cycles at "//speed//"; the summary covers all of them, the series "// &
-            & "show the last", real(solution%cycle%period, wp))
-      else
-         text = "the motion of the train did not become periodic within "//integer_text(solution%max_cycles)//" cycles at "// &
-            & speed//": the summary covers "//integer_text(size(solution%turns))//" further cycles, and the series show the "// &
-            & "last of them as an example"
-         if (solution%trend%approached > 0) then
-            text = text//"; they still approach a period"
-            if (solution%trend%approached > 1) text = text//" of "//integer_text(solution%trend%approached)//" cycles"
-         else if (solution%trend%drifts) then
-            text = text//"; they still drift in one direction"
-            if (allocated(model%flexible%adjuster)) text = text//" (the plunger's highest place from "// &
-               & number_text(1.0e3_wp*solution%values(highest_plunger, 1), 3)//" to "// &
-               & number_text(1.0e3_wp*solution%values(highest_plunger, size(solution%turns)), 3)//" mm)"
-         end if
-         if (solution%trend%approached > 0 .or. solution%trend%drifts) text = text//": these numbers are those of a "// &
-            & "transient; raise numerics.max_cycles"
-         call add_remark(remarks, no_period, text, solution%cycle%closure)
-      end if
-   end subroutine judge_period
 
 end module camroller_flexible_report
