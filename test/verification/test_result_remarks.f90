@@ -1,6 +1,6 @@
 !> Remarks of results: loss of contact, the lobe concerned, and the policy that refuses such cases.
 module test_result_remarks
-   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, degree, two_pi
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_error, only : error_t, kind_domain
