@@ -192,6 +192,8 @@ contains
             where (rises(2:)*rises(:n - 2) > 0.0_wp) part%log_lengths(i, 2, 2:n - 1, k) = 2.0_wp*rises(2:)*rises(:n - 2) &
                & /(rises(2:) + rises(:n - 2))
          end do
+         ! Below the first point loads keep their shape, so that all lengths go with the same power
+         part%log_lengths(2:, 2, 1, k) = part%log_lengths(1, 2, 1, k)
       end do
    end subroutine fit_lengths
 

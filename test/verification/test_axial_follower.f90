@@ -143,7 +143,7 @@ contains
    subroutine test_short_loads(error)
       type(error_type), allocatable, intent(out) :: error
       ! Radii of the crown [m]
-      real(wp), parameter :: first = 7.76_wp, step = 0.02_wp
+      real(wp), parameter :: first = 7.78_wp, step = 0.02_wp
       integer, parameter :: radii = 12
       ! Error of a mean over the tolerance: 0.2 at most for 22 such radii; without panels that end where the ends touch more than
       ! one half for 11 of them, and up to 4 [-]

@@ -5,7 +5,7 @@ module test_axial_lengths
    use camroller_error, only : error_t
    use camroller_kinds, only : wp, pi
    use camroller_roller_profile, only : roller_profile_t
-   use camroller_traction, only : line_lengths_t, rolling_resistance, same_lengths
+   use camroller_traction, only : line_lengths_t, rolling_biboulet_houpert, rolling_resistance, same_lengths
    use closeness, only : check_close, check_scaled, expect_success
    use roller_profiles, only : profiles
    implicit none
@@ -119,18 +119,24 @@ contains
       end do
    end subroutine test_parabola
 
-   !> The rolling resistance of a roller is the sum of its slices'.
+   !> The rolling resistance of a roller is the sum of its slices', which carry load or not as wholes: one more or less of ten to forty.
    subroutine test_rolling(error)
       type(error_type), allocatable, intent(out) :: error
+      ! Difference of one contact, measured 0.10 at most; in the mean, measured 0.02, and 0.15 where the length of the mean load
+      ! stands for all [-]
+      real(wp), parameter :: largest = 0.12_wp, mean = 0.03_wp
       type(axial_part_t) :: part
       type(error_t), allocatable :: failure
       type(line_lengths_t) :: lengths, unused(2)
       real(wp), parameter :: alpha = 2.2e-8_wp
       ! Loads of the slices over their mean; load [N]; speed group [-]; force of the roller and its slope, of the slices [N]
-      real(wp) :: loads(41), load, speed, whole, slope, parts(41), slopes(41), worst(3)
-      integer :: i, j, k, law
+      real(wp) :: loads(41), load, speed, whole, slope, parts(41), slopes(41)
+      ! Difference, sum of their magnitudes [-]
+      real(wp) :: difference, total
+      integer :: i, j, k, contacts
 
-      worst = 0.0_wp
+      total = 0.0_wp
+      contacts = 0
       do k = 1, 4
          call new_axial_part(part, profiles(k), roller_length, modulus, [5.0e-3_wp, 30.0e-3_wp], failure)
          call expect_success(error, failure)
@@ -139,20 +145,23 @@ contains
             load = 10.0_wp*2.1_wp**i
             call slice_loads(part, load, radius, loads)
             call effective_lengths(part, load, radius, lengths, unused(1), unused(2))
-            do j = -14, -8
+            ! Loads of single slices end where the table does
+            if (41*lengths%loaded < 8.0_wp*roller_length) cycle
+            do j = -12, -8
                speed = 10.0_wp**j
-               do law = 1, 2
-                  call rolling_resistance(law, speed, load/(modulus*radius*lengths%mean), modulus, radius, lengths, alpha, &
-                     & whole, slope)
-                  call rolling_resistance(law, speed, loads*load/(modulus*radius*roller_length), modulus, radius, &
-                     & same_lengths(roller_length/41), alpha, parts, slopes)
-                  print '(4i4,2es12.4,3f9.4)', k, i, j, law, load, whole, sum(parts)/whole, slope, lengths%loaded/lengths%mean
-                  worst(law) = max(worst(law), abs(sum(parts)/whole - 1.0_wp))
-               end do
+               call rolling_resistance(rolling_biboulet_houpert, speed, load/(modulus*radius*lengths%mean), modulus, radius, &
+                  & lengths, alpha, whole, slope)
+               call rolling_resistance(rolling_biboulet_houpert, speed, loads*load/(modulus*radius*roller_length), modulus, &
+                  & radius, same_lengths(roller_length/41), alpha, parts, slopes)
+               difference = abs(sum(parts)/whole - 1.0_wp)
+               call check(error, difference < largest, "rolling resistance of a contact")
+               if (allocated(error)) return
+               total = total + difference
+               contacts = contacts + 1
             end do
          end do
       end do
-      print *, worst
+      call check(error, contacts > 100 .and. total < mean*contacts, "rolling resistance in the mean")
    end subroutine test_rolling
 
 end module test_axial_lengths

@@ -290,6 +290,9 @@ contains
          is_given = is_given .and. draft%is_first .and. .not. draft%has_adjuster
       case ("cam_lobes")
          is_given = draft%has_lobes
+      case ("volume_cm3")
+         ! The default is less than what a plunger that is drawn may displace
+         is_given = .true.
       case ("accuracy")
          if (group == "numerics") is_given = is_given .and. draft%is_first
       case ("tolerance")

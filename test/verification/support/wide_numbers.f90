@@ -174,7 +174,7 @@ module wide_numbers
       & usual_t("spring_surge.modes", 2.0_wp, 4.0_wp), &
       & usual_t("spring_surge.damping_ratio", 3.0e-3_wp, 0.1_wp, .true.), &
       & usual_t("lash_adjuster.diameter_mm", 7.0_wp, 14.0_wp), &
-      & usual_t("lash_adjuster.volume_cm3", 0.1_wp, 1.0_wp, .true.), &
+      & usual_t("lash_adjuster.volume_cm3", 0.47_wp, 2.0_wp, .true.), &
       & usual_t("lash_adjuster.gap_um", 3.0_wp, 12.0_wp), &
       & usual_t("lash_adjuster.eccentricity", 0.1_wp, 0.9_wp), &
       & usual_t("lash_adjuster.leak_length_mm", 3.0_wp, 12.0_wp), &
