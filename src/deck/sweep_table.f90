@@ -139,7 +139,7 @@ contains
       if (any([(is_number(trim(words(i))), i=1, size(words))])) then
          call add_mistake(mistakes, "the first line of a table of cases holds the names of its columns, as "// &
             & "operating_point.speed_rpm, and no numbers", line, 0, 0, path, text)
-      else if (any([(words(i)(1:1) == "[", i=1, size(words))])) then
+      else if (any([(index(words(i), "[") == 1, i=1, size(words))])) then
          call add_mistake(mistakes, "a name with a blank, as 'measured.torque [N m]', stands in quotes", line, 0, 0, path, text)
       end if
    end subroutine check_heading

@@ -55,7 +55,8 @@ module camroller_ode_switching
 
    !> Shortest step, over the distance of numbers at its time [-]
    real(wp), parameter :: shortest_step = 16.0_wp
-   !> By the last error alone: a fifth of the steps is tried again, but at the same tolerance steps that follow two errors are shorter
+   !> By the last error alone: a fifth of the steps is tried again, but steps that follow two errors are shorter at the same
+   !> tolerance
    type(control_t), parameter :: control = control_t(proportional=1.0_wp, integral=0.0_wp, least_error=1.0e-3_wp, max_growth=4.0_wp)
    !> Error over tolerance of an impossible trial [-]
    real(wp), parameter :: impossible = 1.0e3_wp

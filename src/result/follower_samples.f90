@@ -157,8 +157,9 @@ contains
          if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, state, angle, weight)
          if (model%rolling_law == rolling_goksem_hargreaves .and. state%contact%is_touching) call note_rolling(shares, model, &
             & state, groups, angle, weight)
-         if (state%contact%is_touching .and. .not. takes_whole_load(model%film_law)) &
-            & call note_thin(shares, state%contact%film_ratio, angle, weight)
+         if (state%contact%is_touching .and. .not. takes_whole_load(model%film_law)) then
+            call note_thin(shares, state%contact%film_ratio, angle, weight)
+         end if
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares

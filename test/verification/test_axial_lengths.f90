@@ -119,7 +119,8 @@ contains
       end do
    end subroutine test_parabola
 
-   !> The rolling resistance of a roller is the sum of its slices', which carry load or not as wholes: one more or less of ten to forty.
+   !> The rolling resistance of a roller is the sum of its slices', which carry load or not as wholes: one more or less of ten to
+   !> forty.
    subroutine test_rolling(error)
       type(error_type), allocatable, intent(out) :: error
       ! Difference of one contact, measured 0.10 at most; in the mean, measured 0.02, and 0.15 where the length of the mean load

@@ -153,8 +153,10 @@ contains
       if (any(group == joint_groups)) may_have = .not. (has_source(text) .or. draft%has_dynamics)
       if (group == "roller_profile") may_have = index(text, "&ehl") == 0
       if (any(group == [character(len=16) :: "bearing_asperity", "belt_pull", "shaft_drag"])) may_have = draft%has_cams
-      if (group == "bearing_heat") may_have = draft%has_cams .and. any(deck_word(text, "lubricant", &
-         & "temperature_law") == [character(len=10) :: "vogel", "walther", "data_sheet"])
+      ! Oil leaves a long bearing at its sides in the width of a diameter alone, and widths are drawn without a look at that
+      if (group == "bearing_heat") may_have = draft%has_cams .and. any(deck_word(text, "lubricant", "temperature_law") == &
+         & [character(len=10) :: "vogel", "walther", "data_sheet"]) .and. any(deck_word(text, "cam_bearings", "law") == &
+         & [character(len=12) :: "short_ocvirk", "finite"])
       if (group == "friction_modifier" .or. group == "boundary_law" .or. group == "wear") may_have = index(text, "&asperity") > 0
       if (group == "tribofilm") may_have = index(text, "&asperity") > 0
       if (group == "running_in") may_have = index(text, "&tribofilm") > 0
@@ -290,9 +292,6 @@ contains
          is_given = is_given .and. draft%is_first .and. .not. draft%has_adjuster
       case ("cam_lobes")
          is_given = draft%has_lobes
-      case ("volume_cm3")
-         ! The default is less than what a plunger that is drawn may displace
-         is_given = .true.
       case ("accuracy")
          if (group == "numerics") is_given = is_given .and. draft%is_first
       case ("tolerance")

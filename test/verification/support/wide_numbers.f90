@@ -173,8 +173,8 @@ module wide_numbers
       & usual_t("spring_surge.mass_kg", 5.0e-3_wp, 0.3_wp, .true.), &
       & usual_t("spring_surge.modes", 2.0_wp, 4.0_wp), &
       & usual_t("spring_surge.damping_ratio", 3.0e-3_wp, 0.1_wp, .true.), &
-      & usual_t("lash_adjuster.diameter_mm", 7.0_wp, 14.0_wp), &
-      & usual_t("lash_adjuster.volume_cm3", 0.47_wp, 2.0_wp, .true.), &
+      & usual_t("lash_adjuster.diameter_mm", 7.0_wp, 12.0_wp), &
+      & usual_t("lash_adjuster.volume_cm3", 0.3_wp, 2.0_wp, .true.), &
       & usual_t("lash_adjuster.gap_um", 3.0_wp, 12.0_wp), &
       & usual_t("lash_adjuster.eccentricity", 0.1_wp, 0.9_wp), &
       & usual_t("lash_adjuster.leak_length_mm", 3.0_wp, 12.0_wp), &
@@ -190,7 +190,7 @@ module wide_numbers
       & usual_t("lash_adjuster.air_content", 1.0e-3_wp, 0.1_wp, .true.), &
       & usual_t("lash_adjuster.oil_modulus_GPa", 0.8_wp, 2.0_wp), &
       & usual_t("lash_adjuster.density_kg_m3", 750.0_wp, 900.0_wp), &
-      & usual_t("lash_adjuster.lowest_mm", -3.0_wp, -0.5_wp), &
+      & usual_t("lash_adjuster.lowest_mm", -2.5_wp, -0.5_wp), &
       & usual_t("lash_adjuster.highest_mm", 0.5_wp, 3.0_wp), &
       & usual_t("lash_adjuster.stop_stiffness_N_m", 1.0e7_wp, 1.0e9_wp, .true.), &
       & usual_t("lash_adjuster.stop_damping_s_m", 0.0_wp, 3.0_wp), &
