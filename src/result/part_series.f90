@@ -67,11 +67,13 @@ contains
    pure function largest_pressure(model, state) result(pressure)
       !> The model of the lobe
       type(model_t), intent(in) :: model
-      !> State of the follower, in contact
+      !> State of the follower
       type(state_t), intent(in) :: state
-      !> The pressure [Pa]
+      !> The pressure; zero without contact [Pa]
       real(wp) :: pressure
 
+      pressure = 0.0_wp
+      if (.not. state%contact%is_touching) return
       associate (contact => state%contact, radius => state%position%equivalent_radius)
          if (allocated(model%axial)) then
             pressure = peak_pressure(state%along%peak*contact%load/model%contact_width, radius, 1.0_wp, model%modulus)
