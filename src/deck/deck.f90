@@ -21,7 +21,7 @@ module camroller_deck
    use camroller_deck_tables, only : deck_tables_t, obtain_tables
    use camroller_deck_case, only : fill_case
    use camroller_deck_sweep_read, only : read_sweep
-   use camroller_deck_sweep, only : sweep_t, sweep_size, sweep_overrides, case_in_words
+   use camroller_deck_sweep, only : axis_of, sweep_t, sweep_size, sweep_overrides, case_in_words
    implicit none
    private
 
@@ -247,7 +247,7 @@ contains
       do i = 1, deck%schema%key_count
          associate (key => deck%schema%keys(i), value => deck%settings%values(i))
             name = trim(deck%schema%groups(key%group)%name)//"."//trim(key%name)
-            if (.not. names_key(error%message, name) .or. is_swept(deck%sweep, name)) cycle
+            if (.not. names_key(error%message, name) .or. axis_of(deck%sweep, name) > 0) cycle
             if (allocated(value%source)) then
                places = places//new_line("a")//override_place//": "//value%source
             else if (value%line > 0) then
@@ -275,22 +275,5 @@ contains
       behind = place + len(name)
       if (verdict .and. behind <= len(sentence)) verdict = scan(sentence(behind:behind), "_=") == 0
    end function names_key
-
-   !> Does a key vary?
-   pure function is_swept(sweep, name) result(verdict)
-      !> The sweep
-      type(sweep_t), intent(in) :: sweep
-      !> As `group.key`
-      character(len=*), intent(in) :: name
-      !> Does it?
-      logical :: verdict
-
-      integer :: i
-
-      verdict = .false.
-      do i = 1, size(sweep%axes)
-         verdict = verdict .or. sweep%axes(i)%key == name
-      end do
-   end function is_swept
 
 end module camroller_deck

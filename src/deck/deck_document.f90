@@ -7,6 +7,7 @@ module camroller_deck_document
       & group_standard, group_effect, type_number, type_integer, type_logical, type_name, type_text, type_numbers, &
       & type_integers, key_length
    use camroller_deck_keys, only : new_schema
+   use camroller_key_uses, only : say_use
    use camroller_deck, only : deck_t
    use camroller_deck_values, only : longest_text
    use camroller_error, only : error_t, raise, kind_usage
@@ -204,7 +205,7 @@ contains
             line = mark//"   "
             if (.not. has_shown_value(schema%keys(i)) .and. mark == "") line = "!  "
             call show_value(schema%keys(i), value)
-            call describe_key(schema%keys(i), comment)
+            call describe_key(schema, schema%keys(i), comment)
             call add_line(line//trim(schema%keys(i)%name)//" = "//value, comment, text)
          end do
          text = text//mark//"/"//new_line("a")
@@ -258,7 +259,9 @@ contains
    end subroutine show_value
 
    !> Meaning of a key, its limits, and whether it must be given.
-   pure subroutine describe_key(key, words)
+   pure subroutine describe_key(schema, key, words)
+      !> The schema
+      type(schema_t), intent(in) :: schema
       !> The key
       type(key_t), intent(in) :: key
       !> The words
@@ -266,13 +269,29 @@ contains
 
       character(len=:), allocatable :: allowed
 
-      words = key%meaning
+      call say_meaning(schema, key, words)
       call say_allowed(key, allowed)
       if (allowed /= "") words = words//"; "//allowed
       call say_usual(key, allowed)
       if (allowed /= "") words = words//"; "//allowed
       if (key%is_required) words = words//"; must be given"
    end subroutine describe_key
+
+   !> Meaning of a key, and when it is used.
+   pure subroutine say_meaning(schema, key, words)
+      !> The schema
+      type(schema_t), intent(in) :: schema
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The words
+      character(len=:), allocatable, intent(out) :: words
+
+      character(len=:), allocatable :: use
+
+      call say_use(trim(schema%groups(key%group)%name)//"."//trim(key%name), use)
+      words = key%meaning
+      if (use /= "") words = words//"; used "//use
+   end subroutine say_meaning
 
    !> Add a line with a comment beside it, in several lines where it is long.
    pure subroutine add_line(line, comment, text)
@@ -341,7 +360,7 @@ contains
       !> Text to add to
       character(len=:), allocatable, intent(inout) :: text
 
-      character(len=:), allocatable :: value, default
+      character(len=:), allocatable :: value, default, meaning
       integer :: i
 
       associate (group => schema%groups(position))
@@ -352,8 +371,9 @@ contains
             associate (key => schema%keys(i))
                call say_kind(key, value)
                call say_default(key, default)
+               call say_meaning(schema, key, meaning)
                text = text//"| `"//trim(key%name)//"` | "//trim(unit_in_words(key))//" | "//value//" | "// &
-                  & default//" | "//key%meaning//" |"//new_line("a")
+                  & default//" | "//meaning//" |"//new_line("a")
             end associate
          end do
       end associate

@@ -157,10 +157,10 @@ contains
       type(lift_t), intent(in) :: lift
 
       call add_name(schema, "law", lift_law_names, lift%law, "family of curves, the acceleration in segments, or a table")
-      call add_number(schema, "max_lift_mm", positive, "largest lift; every law but 'table'", example="9.5", &
+      call add_number(schema, "max_lift_mm", positive, "largest lift", example="9.5", &
          & is_optional=.true.)
       call add_number(schema, "opening_half_angle_deg", up_to(180.0_wp), &
-         & "cam angle from the start of lift to full lift; every law but 'segments' and 'table'", example="70", is_optional=.true.)
+         & "cam angle from the start of lift to full lift", example="70", is_optional=.true.)
       call add_number(schema, "closing_half_angle_deg", up_to(180.0_wp), &
          & "cam angle from full lift to the end of lift; as opening_half_angle_deg where not given", is_optional=.true.)
       call add_integers(schema, "exponents", from_to(1.0_wp, real(largest_exponent, wp)), &
@@ -168,11 +168,11 @@ contains
          & "would bend within less than a 200th of the half angle, to which no cam is ground", example="4", &
          & is_optional=.true.)
       call add_numbers(schema, "segment_angles_deg", from_to(0.0_wp, 360.0_wp), &
-         & "'segments': cam angles from the start of lift, five or more, 0 first", is_optional=.true.)
+         & "cam angles from the start of lift, five or more, 0 first", is_optional=.true.)
       call add_numbers(schema, "segment_accelerations", anything, &
-         & "'segments': shape of the acceleration at these angles, straight between them, positive, negative, positive; its "// &
+         & "shape of the acceleration at these angles, straight between them, positive, negative, positive; its "// &
          & "size follows from the maximum lift, that of the positive parts from the valve's rest at the end", is_optional=.true.)
-      call add_text(schema, "table", "law 'table': file with two columns, cam angle in degrees and lift; "// &
+      call add_text(schema, "table", "file with two columns, cam angle in degrees and lift; "// &
          & "its path starts at the deck's folder", is_optional=.true.)
       call add_name(schema, "table_kind", table_kind_names, table_kind_names(1), "what the table holds: lift of the valve, or "// &
          & "how far the roller's centre moves away from the cam's, or the cam's radius over its polar angle, which increases "// &
@@ -267,28 +267,27 @@ contains
       call add_group(schema, "lubricant", group_required, "oil")
       call add_name(schema, "temperature_law", temperature_law_names, standard%lubricant%temperature_law, &
          & "viscosity as a function of temperature: given directly, by a law through given points, or as on the oil's data sheet")
-      call add_number(schema, "viscosity_Pa_s", positive, "dynamic viscosity at the oil temperature; law 'direct'", &
+      call add_number(schema, "viscosity_Pa_s", positive, "dynamic viscosity at the oil temperature", &
          & example="0.0305", is_optional=.true.)
       call add_numbers(schema, "temperature_points_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
          & "temperatures of the given points, increasing; 'vogel' three, 'walther' two", is_optional=.true.)
       call add_numbers(schema, "viscosity_points_Pa_s", positive, "dynamic viscosities of the given points, falling", &
          & is_optional=.true.)
-      call add_number(schema, "viscosity_at_40_degC_mm2_s", positive, "kinematic viscosity at 40 degC; 'data_sheet'", &
+      call add_number(schema, "viscosity_at_40_degC_mm2_s", positive, "kinematic viscosity at 40 degC", &
          & is_optional=.true.)
-      call add_number(schema, "viscosity_at_100_degC_mm2_s", positive, "kinematic viscosity at 100 degC; 'data_sheet'", &
+      call add_number(schema, "viscosity_at_100_degC_mm2_s", positive, "kinematic viscosity at 100 degC", &
          & is_optional=.true.)
       call add_number(schema, "viscosity_index", up_to(400.0_wp), &
-         & "viscosity index, in the place of the viscosity at 40 degC; 'data_sheet'", is_optional=.true.)
+         & "viscosity index, in the place of the viscosity at 40 degC", is_optional=.true.)
       call add_name(schema, "sae_grade", sae_grade_names, standard%lubricant%sae_grade, &
-         & "'data_sheet' without viscosities: at 100 degC the middle of the grade's range in SAE J300, and a viscosity index "// &
+         & "in the place of viscosities: at 100 degC the middle of the grade's range in SAE J300, and a viscosity index "// &
          & "that is usual for it")
       call add_number(schema, "hths_viscosity_mPa_s", positive, &
          & "dynamic viscosity at 150 degC and 1e6 1/s (HTHS), compared with the law of viscosity; no result follows from it", &
          & is_optional=.true.)
-      call add_number(schema, "density_kg_m3", positive, "density at 15 degC; 'walther' and 'data_sheet'", &
+      call add_number(schema, "density_kg_m3", positive, "density at 15 degC", &
          & default=standard%lubricant%density)
-      call add_number(schema, "thermal_expansion_per_K", not_negative, "thermal expansion of the density; 'walther' and "// &
-         & "'data_sheet'", &
+      call add_number(schema, "thermal_expansion_per_K", not_negative, "thermal expansion of the density", &
          & default=standard%lubricant%thermal_expansion)
       call add_name(schema, "pressure_law", pressure_law_names, standard%lubricant%pressure_law, &
          & "viscosity as a function of pressure")
@@ -319,7 +318,7 @@ contains
       call add_ehl_keys(schema)
       call add_group(schema, "traction", group_standard, "friction of the film")
       call add_name(schema, "shear_law", shear_law_names, standard%traction%shear_law, "shear of the film")
-      call add_number(schema, "eyring_stress_MPa", positive, "Eyring stress of the oil; shear law 'eyring'", &
+      call add_number(schema, "eyring_stress_MPa", positive, "Eyring stress of the oil", &
          & is_optional=.true.)
       call add_name(schema, "limit", limit_names, standard%traction%limit, &
          & "what is limited: the traction of all of the film, limiting_coefficient times the load, or the stress at each point")
@@ -327,7 +326,7 @@ contains
          & "limiting traction coefficient of the film; limit 'local': rise of the limiting stress with the pressure", &
          & default=standard%traction%limiting_coefficient)
       call add_number(schema, "limiting_stress_MPa", not_negative, &
-         & "limiting stress without pressure, 0 where not given; limit 'local'", is_optional=.true.)
+         & "limiting stress without pressure, 0 where not given", is_optional=.true.)
       call add_name(schema, "cap", cap_names, standard%traction%cap, "how the limiting traction is approached")
       call add_name(schema, "rolling_law", rolling_law_names, standard%traction%rolling_law, "rolling resistance")
       call add_logical(schema, "in_roller_balance", standard%traction%in_roller_balance, &
@@ -408,7 +407,7 @@ contains
          & is_optional=.true.)
       call add_integers(schema, "cam_lobes", from_to(1.0_wp, 2.0_wp), &
          & "lobe shape of each cam: 1 is &lift, 2 is &second_lift; 1 for every cam where not given", is_optional=.true.)
-      call add_integers(schema, "cam_cylinders", one_or_more, "cylinder of each cam; with &engine", is_optional=.true.)
+      call add_integers(schema, "cam_cylinders", one_or_more, "cylinder of each cam", is_optional=.true.)
       call add_numbers(schema, "follower_angles_deg", from_to(-360.0_wp, 360.0_wp), &
          & "angle of each cam's follower about the shaft, from the first one's, positive the way a finger turns as it opens "// &
          & "its valve; 0 for every cam where not given", &
@@ -461,12 +460,12 @@ contains
       call add_number(schema, "tolerance", range_t(1.0e-13_wp, 0.1_wp), &
          & "in place of accuracy: error of a step relative to the largest sliding speed; the result's error is not controlled", &
          & is_optional=.true.)
-      call add_number(schema, "step_deg", up_to(90.0_wp), "cam angle of a step; method 'euler'", &
+      call add_number(schema, "step_deg", up_to(90.0_wp), "cam angle of a step", &
          & default=standard%numerics%step)
       call add_number(schema, "periodicity", up_to(1.0_wp), &
          & "largest difference of the sliding speed between start and "// &
-         & "end of the reported cycle, relative to its largest value; only with 'tolerance', of which a tenth suffices; "// &
-         & "with 'accuracy' it is 0.01 of that", &
+         & "end of the reported cycle, relative to its largest value; a tenth of 'tolerance' suffices, with 'accuracy' it is "// &
+         & "0.01 of that", &
          & default=standard%numerics%periodicity)
       call add_integer(schema, "max_cycles", one_or_more, &
          & "largest number of cycles integrated until the cycle is periodic; a case that is not periodic then fails; "// &

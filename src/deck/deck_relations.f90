@@ -360,10 +360,6 @@ contains
       if (get_word(settings, "traction", "shear_law") == "eyring") then
          call demand(settings, "traction", "eyring_stress_MPa", "shear law 'eyring'", mistakes)
       end if
-      if (get_word(settings, "traction", "limit") == "mean" .and. is_known(settings, "traction", "limiting_stress_MPa")) then
-         call complain(mistakes, settings, "traction", "limiting_stress_MPa", &
-            & "'limiting_stress_MPa' goes with limit = 'local' in &traction")
-      end if
       needer = ""
       if (has_group(settings, "asperity")) then
          needer = "&asperity"

@@ -6,12 +6,14 @@ module camroller_deck_remarks
    use camroller_kinds, only : wp
    use camroller_units, only : unit_t, find_unit, from_si, to_si
    use camroller_number_text, only : number_text, is_number
-   use camroller_mistakes, only : add_line, line_t
+   use camroller_mistakes, only : add_line, line_t, shown
    use camroller_text_list, only : text_at
    use camroller_deck_schema, only : key_t, type_number, type_numbers
+   use camroller_deck_values, only : read_value, value_t
    use camroller_deck_meant, only : ask_kinematic, is_usual, say_meant
-   use camroller_deck_sweep, only : sweep_axis_t
-   use camroller_settings, only : get_word, take, find_value
+   use camroller_deck_sweep, only : axis_of, sweep_axis_t
+   use camroller_key_uses, only : is_idle, say_idle
+   use camroller_settings, only : settings_t, get_word, take, find_value
    use camroller_deck_table_remarks, only : remark_lift, remark_pressure, remark_rows
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, make_case, override_t
@@ -61,9 +63,14 @@ contains
       if (.not. allocated(deck%settings%values) .or. .not. allocated(deck%sweep%axes)) return
       do i = 1, deck%schema%key_count
          associate (key => deck%schema%keys(i), value => deck%settings%values(i))
-            if (.not. key%has_usual .or. .not. value%is_given .or. .not. value%is_known) cycle
+            if (.not. value%is_given .or. .not. value%is_known) cycle
             if (.not. deck%settings%groups(key%group)%is_present) cycle
-            axis = axis_of(deck, i)
+            if (is_idle(deck%settings, deck%sweep, name_of(deck, i))) then
+               call remark_idle(deck%settings, key, name_of(deck, i), value, remarks)
+               cycle
+            end if
+            if (.not. key%has_usual) cycle
+            axis = axis_of(deck%sweep, name_of(deck, i))
             if (axis > 0) then
                call remark_axis(key, name_of(deck, i), deck%sweep%axes(axis), remarks)
             else if (key%type == type_number .or. key%type == type_numbers) then
@@ -90,19 +97,47 @@ contains
       name = trim(deck%schema%groups(deck%schema%keys(position)%group)%name)//"."//trim(deck%schema%keys(position)%name)
    end function name_of
 
-   !> Position of a key among those that vary, 0 where it does not.
-   pure function axis_of(deck, position) result(axis)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> Position of the key
-      integer, intent(in) :: position
-      !> The position
-      integer :: axis
+   !> A key that no case uses. A deck may give the default of such a key: nobody expects that to change anything.
+   subroutine remark_idle(settings, key, name, value, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> The key
+      type(key_t), intent(in) :: key
+      !> As `group.key`
+      character(len=*), intent(in) :: name
+      !> Its value
+      type(value_t), intent(in) :: value
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
 
-      do axis = size(deck%sweep%axes), 1, -1
-         if (deck%sweep%axes(axis)%key == name_of(deck, position)) return
-      end do
-   end function axis_of
+      character(len=:), allocatable :: words
+
+      if (has_default(key, value)) return
+      call say_idle(settings, name, words)
+      call add_line(remarks, name//" = "//shown(value%text)//" "//words)
+   end subroutine remark_idle
+
+   !> Is a value the default of its key?
+   function has_default(key, value) result(verdict)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Its value
+      type(value_t), intent(in) :: value
+      !> Is it?
+      logical :: verdict
+
+      type(value_t) :: default
+      character(len=:), allocatable :: reason
+
+      verdict = .false.
+      if (.not. allocated(key%default)) return
+      call read_value(key, key%default, default, reason)
+      if (key%type == type_number) then
+         verdict = value%numbers(1) == default%numbers(1)
+      else
+         verdict = value%text == default%text
+      end if
+   end function has_default
 
    !> Values of a key that varies.
    subroutine remark_axis(key, name, axis, remarks)
@@ -179,8 +214,8 @@ contains
       case ("direct")
          call take(deck%settings, "operating_point", "oil_temperature_degC", temperatures(1))
          call take(deck%settings, group, "viscosity_Pa_s", viscosities(1))
-         if (axis_of(deck, find_value(deck%settings, group, "viscosity_Pa_s")) > 0) return
-         if (axis_of(deck, find_value(deck%settings, "operating_point", "oil_temperature_degC")) > 0) return
+         if (axis_of(deck%sweep, group//".viscosity_Pa_s") > 0) return
+         if (axis_of(deck%sweep, "operating_point.oil_temperature_degC") > 0) return
       case ("data_sheet")
          return
       case default
@@ -220,7 +255,7 @@ contains
       farthest = ""
       distance = 0.0_wp
       position = find_value(deck%settings, "operating_point", "oil_temperature_degC")
-      axis = axis_of(deck, position)
+      axis = axis_of(deck%sweep, "operating_point.oil_temperature_degC")
       if (axis == 0) then
          call look_at(case%operating_point%oil_temperature)
       else if (deck%sweep%axes(axis)%values%count == 0) then

@@ -18,7 +18,8 @@ module camroller_deck_sweep
    private
 
    public :: sweep_t, sweep_axis_t, sweep_kind_names, scale_names, is_sample, most_cases
-   public :: sweep_size, axis_size, sweep_position, sweep_overrides, get_sweep_value, get_values_beside, sweep_numbers, sweep_words
+   public :: axis_of, sweep_size, axis_size, sweep_position, sweep_overrides, get_sweep_value, get_values_beside
+   public :: sweep_numbers, sweep_words
    public :: measured_numbers, measured_prefix, nothing_measured
    public :: case_in_words
 
@@ -77,6 +78,20 @@ contains
 
       verdict = any(sweep%kind == sample_names)
    end function is_sample
+
+   !> Position of a key among those that vary, 0 where it does not.
+   pure function axis_of(sweep, key) result(position)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> As `group.key`
+      character(len=*), intent(in) :: key
+      !> The position
+      integer :: position
+
+      do position = size(sweep%axes), 1, -1
+         if (sweep%axes(position)%key == key) return
+      end do
+   end function axis_of
 
    !> Number of values of a key.
    pure function axis_size(axis) result(values)

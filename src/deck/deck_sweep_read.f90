@@ -7,13 +7,15 @@ module camroller_deck_sweep_read
    use camroller_mistakes, only : mistakes_t, add_mistake, shown
    use camroller_samples, only : sobol_axes
    use camroller_deck_schema, only : schema_t, type_number, type_integer, type_numbers, type_integers, type_words
+   use camroller_deck_text, only : to_lower
    use camroller_deck_sweep_keys, only : sweep_key_count
    use camroller_deck_values, only : has_empty_place, next_word, longest_text
    use camroller_settings, only : settings_t, take, is_known, is_wrong, get_word, has_group
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_matching, only : override_t, apply_override, find_override
-   use camroller_deck_sweep, only : sweep_t, sweep_axis_t, axis_size, is_sample, most_cases, sweep_size, &
-      & get_sweep_value, measured_prefix, nothing_measured
+   use camroller_deck_sweep, only : axis_of, axis_size, get_sweep_value, is_sample, measured_prefix, most_cases, &
+      & nothing_measured, sweep_axis_t, sweep_size, sweep_t
+   use camroller_key_uses, only : is_idle, say_idle
    use camroller_text_list, only : new_text_list, put_text_at, text_at, first_repeated
    use camroller_case_columns, only : column_t, column_reader_t
    use camroller_sweep_table, only : read_columns
@@ -54,6 +56,7 @@ contains
       else
          call read_axes(schema, settings, sweep, mistakes)
       end if
+      if (mistakes%count == 0) call refuse_idle_axes(settings, sweep, mistakes)
       if (mistakes%count == 0) call check_shape(settings, sweep, mistakes)
    end subroutine read_sweep
 
@@ -87,7 +90,7 @@ contains
          if (mistakes%count > before) cycle
          call read_axis_values(settings, digit, sweep, axis, has_values, mistakes)
          if (mistakes%count > before .or. .not. has_values) cycle
-         if (has_axis(sweep, axis%key)) then
+         if (axis_of(sweep, axis%key) > 0) then
             call complain(mistakes, settings, "sweep", "key_"//digit, "'"//axis%key//"' is swept twice")
             cycle
          end if
@@ -108,6 +111,32 @@ contains
       key = "values_"//digit
       if (.not. is_known(settings, "sweep", trim(key))) key = "from_"//digit
    end function values_key
+
+   !> A key that no case uses would make cases that are all the same.
+   subroutine refuse_idle_axes(settings, sweep, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      character(len=:), allocatable :: words
+      character(len=5) :: place
+      integer :: i, k
+
+      do i = 1, size(sweep%axes)
+         associate (key => sweep%axes(i)%key)
+            if (.not. is_idle(settings, sweep, key)) cycle
+            place = "table"
+            do k = 1, sweep_key_count
+               if (to_lower(get_word(settings, "sweep", "key_"//integer_text(k))) == to_lower(key)) place = "key_"//integer_text(k)
+            end do
+            call say_idle(settings, key, words)
+            call complain(mistakes, settings, "sweep", place, "'"//key//"' "//words)
+         end associate
+      end do
+   end subroutine refuse_idle_axes
 
    !> Do the keys make up a sweep?
    subroutine check_shape(settings, sweep, mistakes)
@@ -171,23 +200,6 @@ contains
          return
       end do
    end subroutine refuse_values_without_key
-
-   !> Does a key vary already?
-   pure function has_axis(sweep, key) result(verdict)
-      !> The sweep
-      type(sweep_t), intent(in) :: sweep
-      !> As `group.key`
-      character(len=*), intent(in) :: key
-      !> Does it?
-      logical :: verdict
-
-      integer :: i
-
-      verdict = .false.
-      do i = 1, size(sweep%axes)
-         verdict = verdict .or. sweep%axes(i)%key == key
-      end do
-   end function has_axis
 
    !> A key that is to vary.
    subroutine find_axis(schema, settings, name, place, axis, mistakes)
@@ -430,7 +442,7 @@ contains
          end if
          call find_axis(schema, settings, columns(i)%key, "table", axis, mistakes)
          if (mistakes%count > before) cycle
-         if (has_axis(sweep, axis%key)) then
+         if (axis_of(sweep, axis%key) > 0) then
             call complain(mistakes, settings, "sweep", "table", "'"//axis%key//"' is in the table twice")
             cycle
          end if

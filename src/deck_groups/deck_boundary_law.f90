@@ -86,18 +86,19 @@ contains
 
       type(boundary_law_t) :: law
       logical :: has_points
+      character(len=*), parameter :: logarithmic_keys(*) = [character(len=26) :: "reference_speed_m_s", &
+         & "reference_temperature_degC", "change_per_decade", "change_per_K", "lowest_speed_m_s"]
+      character(len=*), parameter :: table_keys(*) = [character(len=26) :: "speed_points_m_s", "temperature_points_degC", &
+         & "coefficient_points"]
 
       if (.not. has_group(settings, group)) return
       if (.not. has_group(settings, "asperity")) call complain_about_group(mistakes, settings, group, &
          & "&boundary_law needs the group &asperity")
-      call belongs_to("reference_speed_m_s", boundary_law_names(boundary_logarithmic))
-      call belongs_to("reference_temperature_degC", boundary_law_names(boundary_logarithmic))
-      call belongs_to("change_per_decade", boundary_law_names(boundary_logarithmic))
-      call belongs_to("change_per_K", boundary_law_names(boundary_logarithmic))
-      call belongs_to("lowest_speed_m_s", boundary_law_names(boundary_logarithmic))
-      call belongs_to("speed_points_m_s", boundary_law_names(boundary_table))
-      call belongs_to("temperature_points_degC", boundary_law_names(boundary_table))
-      call belongs_to("coefficient_points", boundary_law_names(boundary_table))
+      if (get_word(settings, group, "law") == boundary_law_names(boundary_table)) then
+         call demand_all(table_keys, boundary_table)
+      else
+         call demand_all(logarithmic_keys, boundary_logarithmic)
+      end if
       call take(settings, group, "smallest_coefficient", law%smallest)
       call take(settings, group, "largest_coefficient", law%largest)
       if (law%largest < law%smallest) call complain(mistakes, settings, group, "largest_coefficient", &
@@ -115,17 +116,19 @@ contains
 
    contains
 
-      !> A key that one law needs and the other has no use for.
-      subroutine belongs_to(key, name)
-         !> Name of the key, and of the law
-         character(len=*), intent(in) :: key, name
+      !> What a law needs.
+      subroutine demand_all(keys, law)
+         !> Names of the keys
+         character(len=*), intent(in) :: keys(:)
+         !> Number of the law
+         integer, intent(in) :: law
 
-         if (get_word(settings, group, "law") == name) then
-            call demand(settings, group, key, "boundary law '"//trim(name)//"'", mistakes)
-         else if (is_known(settings, group, key)) then
-            call complain(mistakes, settings, group, key, "'"//key//"' goes with law = '"//trim(name)//"'")
-         end if
-      end subroutine belongs_to
+         integer :: i
+
+         do i = 1, size(keys)
+            call demand(settings, group, trim(keys(i)), "boundary law '"//trim(boundary_law_names(law))//"'", mistakes)
+         end do
+      end subroutine demand_all
 
       !> Points of a table increase.
       subroutine check_rising(key, points)

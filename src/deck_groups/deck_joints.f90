@@ -79,11 +79,11 @@ contains
       call add_number(schema, "friction_coefficient", not_negative, "coefficient; of law 'stribeck' that at standstill", &
          & example="0.1")
       call add_number(schema, "decay_speed_m_s", positive, "sliding speed at which that has fallen to 1/e, at reference "// &
-         & "viscosity and load; law 'stribeck'", is_optional=.true.)
+         & "viscosity and load", is_optional=.true.)
       call add_number(schema, "viscous_part_s_m", not_negative, "viscous part of the coefficient per sliding speed, at "// &
-         & "reference viscosity and load; law 'stribeck'", default=standard%viscous_part)
-      call add_number(schema, "reference_viscosity_Pa_s", positive, "reference viscosity; law 'stribeck'", is_optional=.true.)
-      call add_number(schema, "reference_load_N", positive, "reference force; law 'stribeck'", is_optional=.true.)
+         & "reference viscosity and load", default=standard%viscous_part)
+      call add_number(schema, "reference_viscosity_Pa_s", positive, "reference viscosity", is_optional=.true.)
+      call add_number(schema, "reference_load_N", positive, "reference force", is_optional=.true.)
       call add_number(schema, "reversal_speed_m_s", not_negative, &
          & "sliding speed over which friction reverses; 0: it jumps", default=standard%reversal_speed)
    end subroutine add_sliding_keys

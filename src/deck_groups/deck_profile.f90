@@ -3,14 +3,14 @@
 !> In: schema, settings. Out: group and keys, the component of a case, and the rules that tie its keys to others.
 module camroller_deck_profile
    use camroller_case, only : case_t
-   use camroller_deck_complaint, only : complain, complain_about_group, demand
+   use camroller_deck_complaint, only : complain_about_group, demand
    use camroller_deck_schema, only : schema_t, add_group, add_integer, add_logical, add_name, add_number, group_effect, &
       & not_negative, positive, range_t
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
    use camroller_roller_profile, only : roller_profile_t, coupling_names, fewest_slices, most_slices, profile_crowned, &
       & profile_logarithmic, profile_names
-   use camroller_settings, only : settings_t, get_word, has_group, is_known, take
+   use camroller_settings, only : settings_t, get_word, has_group, take
    implicit none
    private
 
@@ -78,23 +78,12 @@ contains
       if (.not. has_group(settings, group)) return
       if (has_group(settings, "ehl")) call complain_about_group(mistakes, settings, group, &
          & "&roller_profile is not part of a numerical film, &ehl, whose roller is a cylinder; leave out one of both")
-      call belongs_to("crown_radius_mm", profile_names(profile_crowned))
-      call belongs_to("design_load_N", profile_names(profile_logarithmic))
-
-   contains
-
-      !> A key that one shape needs and others have no use for.
-      subroutine belongs_to(key, shape)
-         !> Name of the key, and of the shape
-         character(len=*), intent(in) :: key, shape
-
-         if (get_word(settings, group, "profile") == shape) then
-            call demand(settings, group, key, "roller_profile profile = '"//trim(shape)//"'", mistakes)
-         else if (is_known(settings, group, key)) then
-            call complain(mistakes, settings, group, key, "'"//key//"' goes with profile = '"//trim(shape)//"'")
-         end if
-      end subroutine belongs_to
-
+      select case (get_word(settings, group, "profile"))
+      case (profile_names(profile_crowned))
+         call demand(settings, group, "crown_radius_mm", "roller_profile profile = 'crowned'", mistakes)
+      case (profile_names(profile_logarithmic))
+         call demand(settings, group, "design_load_N", "roller_profile profile = 'logarithmic'", mistakes)
+      end select
    end subroutine check_profile
 
 end module camroller_deck_profile

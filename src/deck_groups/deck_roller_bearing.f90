@@ -35,22 +35,22 @@ contains
       call add_number(schema, "friction_coefficient", not_negative, &
          & "friction coefficient; kind 'journal': of touching asperities", &
          & example="0.0015")
-      call add_number(schema, "needle_radius_mm", positive, "radius of a needle; kind 'needles'", example="0.99", &
+      call add_number(schema, "needle_radius_mm", positive, "radius of a needle", example="0.99", &
          & is_optional=.true.)
       call add_number(schema, "reversal_ratio", proper_fraction, &
          & "fraction of the cam's speed within which the bearing torque changes its sign smoothly", default=standard%reversal_ratio)
-      call add_name(schema, "pin_law", pin_law_names, standard%film%law, "law of the pin's film; kind 'journal'")
-      call add_number(schema, "pin_width_mm", positive, "width of roller and pin where they face each other; kind 'journal'", &
+      call add_name(schema, "pin_law", pin_law_names, standard%film%law, "law of the pin's film")
+      call add_number(schema, "pin_width_mm", positive, "width of roller and pin where they face each other", &
          & is_optional=.true.)
-      call add_number(schema, "pin_radial_clearance_um", positive, "radial clearance of the roller on its pin; kind 'journal'", &
+      call add_number(schema, "pin_radial_clearance_um", positive, "radial clearance of the roller on its pin", &
          & is_optional=.true.)
-      call add_number(schema, "pin_roughness_um", positive, "root mean square roughness of roller bore and pin together; "// &
-         & "kind 'journal'", is_optional=.true.)
-      call add_number(schema, "pin_modulus_GPa", positive, "E' of roller and pin, 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2]; "// &
-         & "kind 'journal'", is_optional=.true.)
-      call add_number(schema, "pin_roughness_product", positive, "asperity density times tip radius times roughness; "// &
-         & "kind 'journal'", default=standard%film%roughness_product)
-      call add_number(schema, "pin_roughness_over_tip_radius", positive, "ratio of roughness to tip radius; kind 'journal'", &
+      call add_number(schema, "pin_roughness_um", positive, "root mean square roughness of roller bore and pin together", &
+         & is_optional=.true.)
+      call add_number(schema, "pin_modulus_GPa", positive, "E' of roller and pin, 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2]", &
+         & is_optional=.true.)
+      call add_number(schema, "pin_roughness_product", positive, "asperity density times tip radius times roughness", &
+         & default=standard%film%roughness_product)
+      call add_number(schema, "pin_roughness_over_tip_radius", positive, "ratio of roughness to tip radius", &
          & default=standard%film%roughness_over_tip_radius)
    end subroutine add_roller_bearing_keys
 

@@ -281,8 +281,6 @@ contains
          & "viscosity_points_Pa_s = 0.05, 0.01", "10:97: temperature law 'vogel' takes 3 points, not 2")
       call expect_mistake(error, "", "&traction shear_law = 'eyring' /", &
          & "11:1: shear law 'eyring' needs 'eyring_stress_MPa'")
-      call expect_mistake(error, "", "&traction limiting_stress_MPa = 2 /", &
-         & "11:33: 'limiting_stress_MPa' goes with limit = 'local' in &traction")
       call expect_mistake(error, "", "&film law = 'masjedi_khonsari_rough' /", &
          & "8:1: film law 'masjedi_khonsari_rough' needs")
       call expect_mistake(error, "", "&asperity boundary_coefficient = 0.1 law = 'masjedi_khonsari' /", &

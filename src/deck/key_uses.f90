@@ -1,0 +1,268 @@
+!> What keys are used for: the one table of keys that have no effect but under a choice made by another key.
+!>
+!> In: settings, and a sweep whose keys vary. Out: whether a key is idle, and when it is used, in words. Where one of several rows
+!> of a key holds, the key is used.
+module camroller_key_uses
+   use camroller_deck_schema, only : key_length
+   use camroller_deck_sweep, only : axis_of, sweep_t
+   use camroller_settings, only : find_value, has_group, settings_t
+   implicit none
+   private
+
+   public :: is_idle, say_idle, say_use
+
+   !> Length of the names of choices, and of a list of their values
+   integer, parameter :: choice_length = 64
+   !> Signs in the place of values: any value, or a group that is there; no value, or a group that is not there
+   character(len=*), parameter :: given = "(given)", not_given = "(not given)"
+
+   !> One use of a key
+   type :: key_use_t
+      !> As `group.key`
+      character(len=2*key_length) :: key
+      !> What decides: a key of the same group, `group.key` of another, or `&group`
+      character(len=choice_length) :: choice
+      !> Its values, blanks between them, or a sign
+      character(len=choice_length) :: values = given
+   end type key_use_t
+
+   !> Laws of lift with angles, those of the oil's viscosity over the temperature that need its density, or points, those of
+   !> asperities with summits
+   character(len=*), parameter :: angle_laws = "power polydyne polynomial_345 polynomial_4567 cycloidal", &
+      & density_laws = "walther data_sheet", point_laws = "vogel walther", summit_laws = "greenwood_tripp zhao_maietta_chang"
+
+   !> The second lift is like the first
+   type(key_use_t), parameter :: uses(*) = [ &
+      key_use_t("lift.max_lift_mm", "law", angle_laws//" segments"), &
+      key_use_t("lift.opening_half_angle_deg", "law", angle_laws), &
+      key_use_t("lift.closing_half_angle_deg", "law", angle_laws), &
+      key_use_t("lift.exponents", "law", "power polydyne"), &
+      key_use_t("lift.segment_angles_deg", "law", "segments"), &
+      key_use_t("lift.segment_accelerations", "law", "segments"), &
+      key_use_t("lift.table", "law", "table"), &
+      key_use_t("lift.table_kind", "law", "table"), &
+      key_use_t("lift.table_unit", "law", "table"), &
+      key_use_t("lift.table_nose_angle_deg", "law", "table"), &
+      key_use_t("lift.smoothing_um", "law", "table"), &
+      key_use_t("lubricant.viscosity_Pa_s", "temperature_law", "direct"), &
+      key_use_t("lubricant.temperature_points_degC", "temperature_law", point_laws), &
+      key_use_t("lubricant.viscosity_points_Pa_s", "temperature_law", point_laws), &
+      key_use_t("lubricant.viscosity_at_40_degC_mm2_s", "temperature_law", "data_sheet"), &
+      key_use_t("lubricant.viscosity_at_100_degC_mm2_s", "temperature_law", "data_sheet"), &
+      key_use_t("lubricant.viscosity_index", "temperature_law", "data_sheet"), &
+      key_use_t("lubricant.sae_grade", "temperature_law", "data_sheet"), &
+      key_use_t("lubricant.density_kg_m3", "temperature_law", density_laws), &
+      key_use_t("lubricant.density_kg_m3", "&bearing_heat"), &
+      key_use_t("lubricant.thermal_expansion_per_K", "temperature_law", density_laws), &
+      key_use_t("lubricant.thermal_expansion_per_K", "&bearing_heat"), &
+      key_use_t("lubricant.roelands_index", "pressure_viscosity_coefficient_per_GPa", not_given), &
+      key_use_t("film.law", "&ehl", not_given), &
+      key_use_t("traction.eyring_stress_MPa", "shear_law", "eyring"), &
+      key_use_t("traction.limiting_stress_MPa", "limit", "local"), &
+      key_use_t("roller_profile.crown_radius_mm", "profile", "crowned"), &
+      key_use_t("roller_profile.design_load_N", "profile", "logarithmic"), &
+      key_use_t("roller_profile.end_drop_um", "profile", "logarithmic"), &
+      key_use_t("asperity.roughness_product", "law", summit_laws), &
+      key_use_t("asperity.roughness_over_tip_radius", "law", summit_laws), &
+      key_use_t("asperity.mobilising_speed_m_s", "mobilisation", "regularised"), &
+      key_use_t("boundary_law.reference_speed_m_s", "law", "logarithmic"), &
+      key_use_t("boundary_law.reference_temperature_degC", "law", "logarithmic"), &
+      key_use_t("boundary_law.change_per_decade", "law", "logarithmic"), &
+      key_use_t("boundary_law.change_per_K", "law", "logarithmic"), &
+      key_use_t("boundary_law.lowest_speed_m_s", "law", "logarithmic"), &
+      key_use_t("boundary_law.speed_points_m_s", "law", "table"), &
+      key_use_t("boundary_law.temperature_points_degC", "law", "table"), &
+      key_use_t("boundary_law.coefficient_points", "law", "table"), &
+      key_use_t("needle_bearing.needle_radius_mm", "kind", "needles"), &
+      key_use_t("needle_bearing.pin_law", "kind", "journal"), &
+      key_use_t("needle_bearing.pin_width_mm", "kind", "journal"), &
+      key_use_t("needle_bearing.pin_radial_clearance_um", "kind", "journal"), &
+      key_use_t("needle_bearing.pin_roughness_um", "kind", "journal"), &
+      key_use_t("needle_bearing.pin_modulus_GPa", "kind", "journal"), &
+      key_use_t("needle_bearing.pin_roughness_product", "kind", "journal"), &
+      key_use_t("needle_bearing.pin_roughness_over_tip_radius", "kind", "journal"), &
+      key_use_t("valve_tip.decay_speed_m_s", "law", "stribeck"), &
+      key_use_t("valve_tip.viscous_part_s_m", "law", "stribeck"), &
+      key_use_t("valve_tip.reference_viscosity_Pa_s", "law", "stribeck"), &
+      key_use_t("valve_tip.reference_load_N", "law", "stribeck"), &
+      key_use_t("guide_side_load.decay_speed_m_s", "law", "stribeck"), &
+      key_use_t("guide_side_load.viscous_part_s_m", "law", "stribeck"), &
+      key_use_t("guide_side_load.reference_viscosity_Pa_s", "law", "stribeck"), &
+      key_use_t("guide_side_load.reference_load_N", "law", "stribeck"), &
+      key_use_t("finger_pivot.decay_speed_m_s", "law", "stribeck"), &
+      key_use_t("finger_pivot.viscous_part_s_m", "law", "stribeck"), &
+      key_use_t("finger_pivot.reference_viscosity_Pa_s", "law", "stribeck"), &
+      key_use_t("finger_pivot.reference_load_N", "law", "stribeck"), &
+      key_use_t("stem_seal.reference_viscosity_Pa_s", "drag_follows", "viscosity"), &
+      key_use_t("cam_bearings.cam_cylinders", "&engine"), &
+      key_use_t("dynamics.seat_damping_s_m", "seat_restitution", not_given), &
+      key_use_t("dynamics.seat_restitution_speed_m_s", "seat_restitution", given), &
+      key_use_t("effects.negligible", "select", "needed"), &
+      key_use_t("effects.quantity", "select", "needed"), &
+      key_use_t("numerics.step_deg", "method", "euler"), &
+      key_use_t("numerics.periodicity", "tolerance", given), &
+      key_use_t("sweep.series_cases", "series", "chosen")]
+
+contains
+
+   !> Is there no case in which a key has an effect? Where its choice varies too, it may have one.
+   pure function is_idle(settings, sweep, key) result(verdict)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      type(sweep_t), intent(in) :: sweep
+      !> As `group.key`
+      character(len=*), intent(in) :: key
+      !> Is there none?
+      logical :: verdict
+
+      integer :: i
+
+      verdict = .false.
+      do i = 1, size(uses)
+         if (uses(i)%key /= table_name(key)) cycle
+         if (holds(settings, sweep, uses(i), choice_of(key, uses(i)))) then
+            verdict = .false.
+            return
+         end if
+         verdict = .true.
+      end do
+   end function is_idle
+
+   !> When a key is used, as `with law = 'power' or 'polydyne'`; blank where that is always.
+   pure subroutine say_use(key, words)
+      !> As `group.key`
+      character(len=*), intent(in) :: key
+      !> The words
+      character(len=:), allocatable, intent(out) :: words
+
+      integer :: i
+
+      words = ""
+      do i = 1, size(uses)
+         if (uses(i)%key /= table_name(key)) cycle
+         if (words /= "") words = words//", or "
+         if (uses(i)%values == given) then
+            words = words//"with "//trim(uses(i)%choice)
+         else if (uses(i)%values == not_given) then
+            words = words//"without "//trim(uses(i)%choice)
+         else
+            words = words//"with "//trim(uses(i)%choice)//" = "
+            call add_alternatives(trim(uses(i)%values), words)
+         end if
+      end do
+   end subroutine say_use
+
+   !> That a key has no effect, and why: `has no effect: it is used with law = 'power' or 'polydyne'; law is 'cycloidal'`.
+   pure subroutine say_idle(settings, key, words)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> As `group.key`
+      character(len=*), intent(in) :: key
+      !> The words
+      character(len=:), allocatable, intent(out) :: words
+
+      integer :: i
+
+      call say_use(key, words)
+      words = "has no effect: it is used "//words
+      do i = 1, size(uses)
+         if (uses(i)%key /= table_name(key) .or. any(uses(i)%values == [character(len=choice_length) :: given, not_given])) cycle
+         associate (value => settings%values(value_of(settings, choice_of(key, uses(i)))))
+            if (value%is_known) words = words//"; "//trim(uses(i)%choice)//" is '"//value%word//"'"
+         end associate
+         return
+      end do
+   end subroutine say_idle
+
+   !> Is a use of a key open to the cases of a deck?
+   pure function holds(settings, sweep, use, choice) result(verdict)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      type(sweep_t), intent(in) :: sweep
+      !> The use
+      type(key_use_t), intent(in) :: use
+      !> What decides: `group.key` or `&group`
+      character(len=*), intent(in) :: choice
+      !> Is it?
+      logical :: verdict
+
+      if (choice(1:1) == "&") then
+         verdict = has_group(settings, trim(choice(2:))) .eqv. use%values == given
+         return
+      end if
+      verdict = .true.
+      if (axis_of(sweep, choice) > 0) return
+      associate (value => settings%values(value_of(settings, choice)))
+         if (value%is_wrong) return
+         select case (use%values)
+         case (given)
+            verdict = value%is_known
+         case (not_given)
+            verdict = .not. value%is_known
+         case default
+            if (value%is_known) verdict = index(" "//use%values//" ", " "//value%word//" ") > 0
+         end select
+      end associate
+   end function holds
+
+   !> Position of the value of `group.key`.
+   pure function value_of(settings, key) result(position)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> As `group.key`
+      character(len=*), intent(in) :: key
+      !> The position
+      integer :: position
+
+      position = find_value(settings, key(:index(key, ".") - 1), trim(key(index(key, ".") + 1:)))
+   end function value_of
+
+   !> What decides about a use of a key: `group.key`, or `&group`.
+   pure function choice_of(key, use) result(choice)
+      !> As `group.key`
+      character(len=*), intent(in) :: key
+      !> The use
+      type(key_use_t), intent(in) :: use
+      !> The choice
+      character(len=2*key_length) :: choice
+
+      choice = use%choice
+      if (scan(choice, ".&") == 0) choice = key(:index(key, "."))//use%choice
+   end function choice_of
+
+   !> Name of a key in the table: the second lift is like the first.
+   pure function table_name(key) result(name)
+      !> As `group.key`
+      character(len=*), intent(in) :: key
+      !> The name
+      character(len=2*key_length) :: name
+
+      name = key
+      if (index(key, "second_lift.") == 1) name = key(len("second_") + 1:)
+   end function table_name
+
+   !> Add words of a list as `'power' or 'polydyne'`.
+   pure subroutine add_alternatives(list, words)
+      !> Words with single blanks between them
+      character(len=*), intent(in) :: list
+      !> Text to add to
+      character(len=:), allocatable, intent(inout) :: words
+
+      integer :: first, last
+
+      first = 1
+      do while (first <= len(list))
+         last = first + index(list(first:)//" ", " ") - 2
+         if (first > 1 .and. last == len(list)) then
+            words = words//" or "
+         else if (first > 1) then
+            words = words//", "
+         end if
+         words = words//"'"//list(first:last)//"'"
+         first = last + 2
+      end do
+   end subroutine add_alternatives
+
+end module camroller_key_uses

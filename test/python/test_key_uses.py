@@ -1,0 +1,196 @@
+"""Keys that are used only under a choice: an idle key changes no bit of a result and has a remark, a used one changes it."""
+
+import hashlib
+import pathlib
+import re
+import subprocess
+
+import h5py
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# another value for each key of the table; none where a key has no other value to try
+VALUES = {
+    "lift.max_lift_mm": "9.4", "lift.opening_half_angle_deg": "71", "lift.closing_half_angle_deg": "72", "lift.exponents": "5",
+    "lift.segment_angles_deg": "0, 20, 40, 70, 120, 140", "lift.segment_accelerations": "0, 1, 0.1, -0.5, 0.9, 0",
+    "lift.table": "fine_lift.txt", "lift.table_kind": "roller_lift", "lift.table_unit": "um",
+    "lift.table_nose_angle_deg": "181", "lift.smoothing_um": "5",
+    "lubricant.viscosity_Pa_s": "0.02", "lubricant.temperature_points_degC": "25, 61, 95",
+    "lubricant.viscosity_points_Pa_s": "0.15, 0.031, 0.01", "lubricant.viscosity_at_40_degC_mm2_s": "66",
+    "lubricant.viscosity_at_100_degC_mm2_s": "11.5", "lubricant.viscosity_index": "150", "lubricant.sae_grade": "0W-20",
+    "lubricant.density_kg_m3": "850", "lubricant.thermal_expansion_per_K": "0.0007", "lubricant.roelands_index": "0.7",
+    "film.law": "moes", "asperity.roughness_product": "0.05", "asperity.roughness_over_tip_radius": "0.02",
+    "asperity.mobilising_speed_m_s": "0.002",
+    "traction.eyring_stress_MPa": "6", "traction.limiting_stress_MPa": "3",
+    "roller_profile.crown_radius_mm": "4000", "roller_profile.design_load_N": "900", "roller_profile.end_drop_um": "2",
+    "boundary_law.reference_speed_m_s": "0.2", "boundary_law.reference_temperature_degC": "90",
+    "boundary_law.change_per_decade": "0.02", "boundary_law.change_per_K": "-0.0003", "boundary_law.lowest_speed_m_s": "0.002",
+    "boundary_law.speed_points_m_s": "0.01, 0.2", "boundary_law.temperature_points_degC": "20, 120",
+    "boundary_law.coefficient_points": "0.11, 0.13, 0.1, 0.12",
+    "needle_bearing.needle_radius_mm": "1.1", "needle_bearing.pin_law": "short_ocvirk", "needle_bearing.pin_width_mm": "8",
+    "needle_bearing.pin_radial_clearance_um": "25", "needle_bearing.pin_roughness_um": "0.4",
+    "needle_bearing.pin_modulus_GPa": "170", "needle_bearing.pin_roughness_product": "0.05",
+    "needle_bearing.pin_roughness_over_tip_radius": "0.02",
+    **{f"{group}.{key}": value for group in ("valve_tip", "guide_side_load", "finger_pivot") for key, value in
+       (("decay_speed_m_s", "0.4"), ("viscous_part_s_m", "0.02"), ("reference_viscosity_Pa_s", "0.02"), ("reference_load_N", "200"))},
+    "stem_seal.reference_viscosity_Pa_s": "0.02", "cam_bearings.cam_cylinders": None,
+    "dynamics.seat_damping_s_m": "2", "dynamics.seat_restitution_speed_m_s": "0.4",
+    "effects.negligible": "0.05", "effects.quantity": "minimum_film",
+    "numerics.step_deg": "2", "numerics.periodicity": "0.5", "sweep.series_cases": None,
+}
+
+STRIBECK = """   law = 'stribeck' friction_coefficient = 0.1 decay_speed_m_s = 0.3 viscous_part_s_m = 0.01
+   reference_viscosity_Pa_s = 0.01 reference_load_N = 300 /
+"""
+JOINTS = f"&valve_tip pad_radius_mm = 8{STRIBECK}&guide_side_load guide_length_mm = 36 tip_height_mm = 25 stem_axis_mm = 34" \
+         f"{STRIBECK}&finger_pivot ball_radius_mm = 5{STRIBECK}" \
+         "&stem_seal lip_force_N = 8 viscous_drag_N_s_m = 5 reference_viscosity_Pa_s = 0.01 /\n"
+# keys of the table that are used, by what makes them so
+SUMMITS = "asperity.roughness_product asperity.roughness_over_tip_radius"
+BOUNDARY = f"film.law {SUMMITS} asperity.mobilising_speed_m_s"
+POWER = "lift.max_lift_mm lift.opening_half_angle_deg lift.exponents"
+POINTS = "lubricant.temperature_points_degC lubricant.viscosity_points_Pa_s"
+SHEET = "lubricant.viscosity_at_100_degC_mm2_s lubricant.density_kg_m3 lubricant.thermal_expansion_per_K"
+NEEDLES = "needle_bearing.needle_radius_mm"
+PINS = " ".join(key for key in VALUES if key.startswith("needle_bearing.pin"))
+CURVES = " ".join(key for key in VALUES if re.match("valve_tip|guide_side_load|finger_pivot", key))
+TABLE = " ".join(key for key in VALUES if re.match(r"lift\.(table|smoothing)", key))
+LOGARITHM = " ".join(key for key in VALUES if re.match("boundary_law.*(reference|change|lowest)", key))
+SPEEDS = " ".join(key for key in VALUES if re.match("boundary_law.*points", key))
+
+# name: values beside decks/thesis.nml, further groups, keys of the table that are used
+SCENES = {
+    "points of viscosity, power law, needles": (["asperity.film_shear_strength_MPa=1"], "", [BOUNDARY, POWER, POINTS, NEEDLES]),
+    "data sheet, two half angles, Eyring": (
+        ["operating_point.speed_rpm=2500", "lift.law=polynomial_345", "lubricant.temperature_law=data_sheet",
+         "lubricant.viscosity_at_40_degC_mm2_s=64", "lubricant.viscosity_at_100_degC_mm2_s=11", "lubricant.pressure_law=roelands",
+         "lubricant.roelands_index=0.6", "traction.shear_law=eyring", "traction.eyring_stress_MPa=5",
+         "asperity.mobilisation=stick_slip"], "",
+        ["film.law", SUMMITS, "lift.max_lift_mm lift.opening_half_angle_deg lift.closing_half_angle_deg", SHEET,
+         "lubricant.viscosity_at_40_degC_mm2_s lubricant.roelands_index traction.eyring_stress_MPa", NEEDLES]),
+    "grade, segments, constant joints, regression of the asperities": (
+        ["lift.law=segments", "lift.segment_angles_deg=0, 20, 40, 80, 120, 140", "lift.segment_accelerations=0, 1, 0, -0.5, 1, 0",
+         "film.law=masjedi_khonsari_rough", "asperity.law=masjedi_khonsari", "materials.hardness_GPa=7",
+         "lubricant.temperature_law=data_sheet", "lubricant.sae_grade=5W-30"],
+        JOINTS.replace("stribeck", "constant").replace("drag_N_s_m = 5", "drag_N_s_m = 5 drag_follows = 'constant'"),
+        ["film.law asperity.mobilising_speed_m_s lift.max_lift_mm lift.segment_angles_deg lift.segment_accelerations",
+         "lubricant.sae_grade", SHEET.split(maxsplit=1)[1], NEEDLES]),
+    "lift table, viscosity index, Stribeck": (
+        ["lift.law=table", "lift.table=coarse_lift.txt", "lubricant.temperature_law=data_sheet",
+         "lubricant.viscosity_at_100_degC_mm2_s=11", "lubricant.viscosity_index=160"], JOINTS,
+        [BOUNDARY, TABLE, SHEET, "lubricant.viscosity_index stem_seal.reference_viscosity_Pa_s", CURVES, NEEDLES]),
+    "direct viscosity, local limit, pin, crown, logarithmic boundary law, choice of effects": (
+        ["lubricant.temperature_law=direct", "lubricant.viscosity_Pa_s=0.03", "traction.limit=local",
+         "traction.limiting_stress_MPa=2", "needle_bearing.kind=journal", "needle_bearing.friction_coefficient=0.1",
+         "needle_bearing.pin_width_mm=9", "needle_bearing.pin_radial_clearance_um=20", "needle_bearing.pin_roughness_um=0.3",
+         "needle_bearing.pin_modulus_GPa=180", "effects.select=needed", "effects.negligible=1e-6"],
+        "&heat contact = 'mean' viscosity_fall_per_K = 0.03 /\n&roller_profile profile = 'crowned' crown_radius_mm = 3000 /\n"
+        "&boundary_law reference_speed_m_s = 0.1 reference_temperature_degC = 100 change_per_decade = 0.01 change_per_K = -0.0002\n"
+        "lowest_speed_m_s = 0.001 /\n",
+        [BOUNDARY, POWER, "lubricant.viscosity_Pa_s traction.limiting_stress_MPa roller_profile.crown_radius_mm", PINS, LOGARITHM,
+         "effects.negligible effects.quantity"]),
+    "logarithmic roller, table of boundary friction, Euler": (
+        ["operating_point.speed_rpm=2000", "numerics.method=euler", "numerics.tolerance=1e-4", "numerics.periodicity=1e-9"],
+        "&roller_profile profile = 'logarithmic' design_load_N = 800 /\n&heat /\n"
+        "&boundary_law law = 'table' speed_points_m_s = 0.01, 0.1 temperature_points_degC = 20, 100\n"
+        "coefficient_points = 0.11, 0.12, 0.1, 0.11 /\n",
+        [BOUNDARY, POWER, POINTS, NEEDLES, SPEEDS, "roller_profile.design_load_N roller_profile.end_drop_um",
+         "numerics.step_deg numerics.periodicity"]),
+    "seat with a damping": ([], "&dynamics /\n", [BOUNDARY, POWER, POINTS, NEEDLES, "dynamics.seat_damping_s_m"]),
+    "seat with a restitution": (
+        [], "&dynamics seat_restitution = 0.4 /\n", [BOUNDARY, POWER, POINTS, NEEDLES, "dynamics.seat_restitution_speed_m_s"]),
+    "numerical film": ([], "&ehl accuracy = 0.1 /\n", [BOUNDARY.removeprefix("film.law "), POWER, POINTS, NEEDLES]),
+}
+
+
+def used_in(*scenes):
+    """Keys of the table that are used in scenes."""
+    return {key for scene in scenes for keys in SCENES[scene][2] for key in keys.split()}
+
+
+def run(camroller, deck, command, *values):
+    """What a command prints on standard error, with other values."""
+    words = [word for value in values for word in ("--set", value)]
+    where = ["--output", str(deck.with_suffix(".h5")), "--quiet"] if command == "run" else []
+    done = subprocess.run([camroller, command, str(deck), "--no-sweep", *where, *words], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stderr
+
+
+def numbers_of(camroller, deck, *values):
+    """A sum over every number of a result."""
+    run(camroller, deck, "run", *values)
+    total = hashlib.sha256()
+
+    def add(name, item):
+        if isinstance(item, h5py.Dataset) and item.dtype.kind in "fi" and not name.startswith("deck"):
+            total.update(name.encode() + item[()].tobytes())
+
+    with h5py.File(deck.with_suffix(".h5")) as file:
+        file.visititems(add)
+    return total.hexdigest()
+
+
+def test_every_row_of_the_table_is_tried(camroller):
+    page = subprocess.run([camroller, "defaults", "--markdown"], capture_output=True, text=True, check=True).stdout
+    found, group = set(), None
+    for line in page.splitlines():
+        if heading := re.match(r"## &(\w+)", line):
+            group = heading[1]
+        elif (row := re.match(r"\| `(\w+)`", line)) and re.search("; used with", line) and group != "second_lift":
+            found.add(f"{group}.{row[1]}")
+    assert found == set(VALUES)
+    assert used_in(*SCENES) == {key for key, value in VALUES.items() if value}
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_an_idle_key_changes_nothing_and_a_used_one_does(camroller, tmp_path, scene):
+    values, groups, _ = SCENES[scene]
+    used = used_in(scene)
+    deck = tmp_path / "deck.nml"
+    text = (ROOT / "decks/thesis.nml").read_text() + groups
+    if "lubricant.roelands_index" in used:
+        text = text.replace("pressure_viscosity_coefficient_per_GPa = 22", "")
+    for table in (ROOT / "decks/hard/tables").glob("*_lift.txt"):
+        (tmp_path / table.name).write_bytes(table.read_bytes())
+    deck.write_text(text)
+    present = re.findall(r"^&(\w+)", text, re.M) + ["effects", "numerics"]
+    accuracy = [] if "numerics.method=euler" in values else ["numerics.accuracy=1e-2"]
+    values = ["operating_point.oil_temperature_degC=50", "output.angle_step_deg=5", *accuracy, *values]
+    # a mistake, not an idle key: two half angles of the power law, and what takes the place of another number of a data sheet
+    refused = "lift.closing_half_angle_deg " + "lubricant.viscosity_index lubricant.sae_grade lubricant.viscosity_at_40_degC_mm2_s " \
+        "lubricant.viscosity_at_100_degC_mm2_s" * ("lubricant.temperature_law=data_sheet" in values)
+    idle = [f"{key}={value}" for key, value in VALUES.items() if value and key.split(".")[0] in present
+            and key not in used and key not in refused.split() and not any(given.startswith(f"{key}=") for given in values)]
+    base = numbers_of(camroller, deck, *values)
+    assert numbers_of(camroller, deck, *values, *idle) == base
+    remarks = run(camroller, deck, "check", *values, *idle)
+    for key in (word.split("=")[0] for word in idle):
+        assert re.search(rf"remark: {key} = .* has no effect: it is used with", remarks), key
+    for key in sorted(used - used_in(*list(SCENES)[:list(SCENES).index(scene)])):
+        assert numbers_of(camroller, deck, *values, f"{key}={VALUES[key]}") != base, key
+        assert not re.search(rf"remark: {key} = .* has no effect", remarks), key
+
+
+def test_a_default_of_an_idle_key_needs_no_remark(camroller):
+    def remarks(value):
+        return run(camroller, ROOT / "decks/thesis.nml", "check", value)
+    assert "no effect" not in remarks("numerics.step_deg=1.0") and "numerics.step_deg = 2 has no effect" in remarks("numerics.step_deg=2")
+
+
+@pytest.mark.parametrize(("values", "message"), [
+    (["sweep.key_1=needle_bearing.pin_width_mm", "sweep.values_1=8,9"],
+     "'needle_bearing.pin_width_mm' has no effect: it is used with kind = 'journal'; kind is 'needles'"),
+    (["sweep.key_1=lift.smoothing_um", "sweep.values_1=0,5"], "it is used with law = 'table'; law is 'power'"),
+    # where the choice varies too, some cases may use the key
+    (["sweep.key_1=traction.eyring_stress_MPa", "sweep.values_1=4,5", "sweep.key_2=traction.shear_law",
+      "sweep.values_2='newtonian','eyring'", "traction.eyring_stress_MPa=5"], None),
+])
+def test_a_sweep_of_a_key_that_no_case_uses_is_refused(camroller, values, message):
+    words = [word for value in values for word in ("--set", value)]
+    done = subprocess.run([camroller, "check", str(ROOT / "decks/thesis.nml"), *words], capture_output=True, text=True, check=False)
+    if message:
+        assert done.returncode == 3 and message in done.stderr and done.stderr.count("no effect") == 1
+    else:
+        assert done.returncode == 0 and "no effect" not in done.stderr
