@@ -23,8 +23,8 @@ export DEBUG_FLAGS := $(COMMON_FLAGS) -g -Og -Wall -Wextra -Wimplicit-interface 
 export OPTIMISED_FLAGS := $(COMMON_FLAGS) -O3
 # The program: with -flto small procedures of other modules are inlined, a tenth fewer instructions a case and not one bit of a result
 # another (doc/notes/batch.md). Tests go without, since each program that is linked so takes minutes. gcc-ar writes the index of such
-# objects.
-export RELEASE_FLAGS := $(OPTIMISED_FLAGS) -flto=auto
+# objects, which hold machine code as well, for programs that are linked with the library the plain way.
+export RELEASE_FLAGS := $(OPTIMISED_FLAGS) -flto=auto -ffat-lto-objects
 export FPM_AR := gcc-ar
 export SANITIZE_FLAGS := $(COMMON_FLAGS) -O1 -fno-omit-frame-pointer -fsanitize=address,undefined
 
@@ -51,8 +51,12 @@ counted: commit ## the program without -flto, whose procedures valgrind can tell
 mpi: build ## the program for many nodes, where Open MPI is there: build/mpi/bin/camroller-mpi
 	@tools/build_mpi.sh
 
-example: commit ## run example/library/two_cases.f90, which uses camroller as a library
-	@$(FPM) run --flag "$(RELEASE_FLAGS)" --example two_cases
+example: build ## run example/library/two_cases.f90, which uses camroller as a library: EXAMPLE=many_cases for the other one
+	@mkdir -p build/example
+	@gfortran $(OPTIMISED_FLAGS) -Jbuild/example -Ibuild/release/include -o build/example/$(or $(EXAMPLE),two_cases) \
+	  example/library/$(or $(EXAMPLE),two_cases).f90 -Lbuild/release/lib -lcamroller $$(pkg-config --libs hdf5) \
+	  -lhdf5_fortran -lhdf5_hl -lhdf5hl_fortran -lopenblas -fopenmp
+	@build/example/$(or $(EXAMPLE),two_cases)
 
 run: build ## run decks/thesis.nml and plot it: results/thesis.h5 and figures beside it
 	@mkdir -p results
@@ -240,7 +244,7 @@ bench-hosts: setup ## cost of a step of a host, instructions, allocations, time:
 	@cat bench/tables/hosts.txt
 
 clean: ## remove built files; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/counted build/sanitize build/docs build/docs-source build/second build/package build/recipes build/commit build/tests build/bench bench/build build/mpi build/*.log build/compile_commands.json
+	rm -rf build/gfortran* build/debug build/release build/counted build/sanitize build/docs build/docs-source build/second build/example build/package build/recipes build/commit build/tests build/bench bench/build build/mpi build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too
 	rm -rf build bench/build .venv results

@@ -15,7 +15,7 @@ fpm=$(realpath -s "$fpm")
 rm -rf build/package
 mkdir -p build/package
 cp -r src app include build/package
-sed -e '/^\[dev-dependencies\]/,/^$/d' -e '/^\[\[test\]\]/,/^$/d' -e '/^\[\[example\]\]/,/^$/d' fpm.toml > build/package/fpm.toml
+sed -e '/^\[dev-dependencies\]/,/^$/d' -e '/^\[\[test\]\]/,/^$/d' fpm.toml > build/package/fpm.toml
 cd build/package
 "$fpm" install --flag "-std=f2018 ${FFLAGS:--O3 -g1} -ffp-contract=off" --prefix "$prefix"
 "$prefix/bin/camroller" --version

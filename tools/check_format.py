@@ -9,6 +9,7 @@ Indentation and continued lines are left as written, and so are the blanks in `o
 from __future__ import annotations
 
 import argparse
+import concurrent.futures
 import difflib
 import io
 import logging
@@ -22,6 +23,7 @@ from fortran_source import ROOT, sources
 
 def formatted(text: str) -> str:
     """What fprettify makes of a source text."""
+    logging.disable(logging.WARNING)  # on lines that it thinks too long to touch
     result = io.StringIO()
     fprettify.reformat_ffile(io.StringIO(text), result, impose_indent=False, whitespace=2, llength=200, orig_filename="text")
     better = re.sub(r"(\bonly)\s*:(?!:)", r"\1 :", result.getvalue())
@@ -33,12 +35,12 @@ def main(arguments=None) -> int:
     parser = argparse.ArgumentParser(description="check the blanks inside statements with fprettify")
     parser.add_argument("--fix", action="store_true", help="write the changes instead of listing them")
     fix = parser.parse_args(arguments).fix
-    logging.disable(logging.WARNING)  # on lines that it thinks too long to touch
     files = sources("src", "app", "test", "example")
+    texts = [path.read_text(encoding="utf-8") for path in files]
+    with concurrent.futures.ProcessPoolExecutor() as pool:
+        results = list(pool.map(formatted, texts, chunksize=8))
     changed = 0
-    for path in files:
-        text = path.read_text(encoding="utf-8")
-        better = formatted(text)
+    for path, text, better in zip(files, texts, results):
         if better == text:
             continue
         changed += 1
