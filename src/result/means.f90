@@ -12,7 +12,7 @@ module camroller_means
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
-   use camroller_catalogue, only : list_series, series_values
+   use camroller_catalogue, only : series_values
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series
    use camroller_cycle_walk, only : walk_t, walk_round, trapezoid
    use camroller_error_estimate, only : estimated_error
@@ -84,15 +84,15 @@ module camroller_means
 contains
 
    !> Means and extremes over the cycle of one lobe shape.
-   subroutine integrate_lobe(case, model, cycle, series_count, statistics, error)
+   subroutine integrate_lobe(case, series, model, cycle, statistics, error)
       !> The case
       type(case_t), intent(in), target :: case
+      !> Its series: those of one follower and of the camshaft
+      type(quantity_t), intent(in) :: series(:)
       !> Model of the lobe
       type(model_t), intent(in), target :: model
       !> Cycle of the lobe
       type(cycle_t), intent(in), target :: cycle
-      !> Number of series of one follower and the camshaft
-      integer, intent(in) :: series_count
       !> Means and extremes
       type(statistics_t), intent(out) :: statistics
       !> Convergence error
@@ -100,14 +100,12 @@ contains
 
       type(follower_samples_t) :: samples
       type(walk_t) :: walk
-      type(quantity_t), allocatable :: series(:)
       ! Length of the cycle [rad]
       real(wp) :: span
       ! First and last series that is a film without a mean
       integer :: films(2)
 
-      call list_series(case, series)
-      call start_samples(samples, model, cycle, case, series_count, find_quantity(series, "torque_geometric"))
+      call start_samples(samples, model, cycle, case, size(series), find_quantity(series, "torque_geometric"))
       call walk_round(samples, walk, error)
       if (allocated(error)) return
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
@@ -124,7 +122,7 @@ contains
             & walk%speeds(:walk%count), error)
          if (allocated(error)) return
          call refine_means(walk%panels, samples, quadrature_part*mean_tolerance(cycle%tolerance), &
-            & series(:series_count)%least*span, films, error)
+            & series%least*span, films, error)
          if (.not. allocated(error)) call add_standstills(samples, walk%speeds(:walk%count), statistics%standstills, &
             & statistics%first_standstill, error)
          if (.not. allocated(error)) call add_rolling_points(samples, walk%speeds(:walk%count), error)
@@ -134,7 +132,7 @@ contains
       statistics%largest_sliding = samples%largest_sliding
       call take_means(walk%panels, samples, walk%work, span, statistics)
       call find_slip_errors(walk%slips, samples, walk%estimate, statistics%slip_errors)
-      call judge_means(walk%panels, statistics%slip_errors%integrals, span, series(:series_count), films, statistics)
+      call judge_means(walk%panels, statistics%slip_errors%integrals, span, series, films, statistics)
       ! The difference between start and end is repeated in each cycle until the periodic one is reached
       statistics%error = cycle%closure/max(1.0_wp - walk%estimate%contraction, epsilon(1.0_wp)) &
          & + estimated_error(walk%estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))

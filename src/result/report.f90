@@ -11,7 +11,7 @@ module camroller_report
    use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t, state_at
    use camroller_cycle_remarks, only : judge_films, judge_laws, judge_lobe, judge_pin, judge_pressure
-   use camroller_catalogue, only : list_series, follower_count, follower_values, camshaft_columns, camshaft_count, &
+   use camroller_catalogue, only : follower_count, follower_values, camshaft_columns, camshaft_count, &
       & camshaft_values, lobe_columns, lobe_prefix
    use camroller_extremes, only : samples_t
    use camroller_follower_samples, only : contact_ahead, extend_trail, trail_t
@@ -51,9 +51,11 @@ module camroller_report
 contains
 
    !> Means of all lobe shapes, with the rows and shares found on the way.
-   subroutine take_statistics(case, models, cycles, statistics, error)
+   subroutine take_statistics(case, series, models, cycles, statistics, error)
       !> The case
       type(case_t), intent(in) :: case
+      !> Its series
+      type(quantity_t), intent(in) :: series(:)
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
       !> Cycle of each lobe shape
@@ -66,21 +68,25 @@ contains
       integer :: lobe
 
       allocate (statistics(size(models)))
-      do lobe = 1, size(models)
-         if (allocated(cycles(lobe)%flexible)) then
-            call integrate_flexible(case, models(lobe), cycles(lobe), statistics(lobe), error)
-         else
-            call integrate_lobe(case, models(lobe), cycles(lobe), follower_count(case) + camshaft_count(case), statistics(lobe), &
-               & error)
-         end if
-         if (allocated(error)) return
-      end do
+      ! The first lobe's follower, which stands for any, and the camshaft come first
+      associate (listed => series(:follower_count(case) + camshaft_count(case)))
+         do lobe = 1, size(models)
+            if (allocated(cycles(lobe)%flexible)) then
+               call integrate_flexible(case, listed, models(lobe), cycles(lobe), statistics(lobe), error)
+            else
+               call integrate_lobe(case, listed, models(lobe), cycles(lobe), statistics(lobe), error)
+            end if
+            if (allocated(error)) return
+         end do
+      end associate
    end subroutine take_statistics
 
    !> Means of a lobe shape whose train is flexible.
-   subroutine integrate_flexible(case, model, cycle, statistics, error)
+   subroutine integrate_flexible(case, series, model, cycle, statistics, error)
       !> The case
       type(case_t), intent(in) :: case
+      !> Its series: those of one follower and of the camshaft
+      type(quantity_t), intent(in) :: series(:)
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> Its cycle
@@ -91,14 +97,10 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(flexible_means_t) :: means
-      ! Series: the first lobe's follower, which stands for any, and the camshaft come first
-      type(quantity_t), allocatable :: series(:)
-      ! Errors of their means [-]
-      real(wp), allocatable :: mean_errors(:)
+      real(wp) :: mean_errors(size(series)) ! [-]
       integer :: worst
 
-      call integrate_turns(case, model, cycle%flexible, follower_count(case) + camshaft_count(case), follower_count(case) + 1, &
-         & means, error)
+      call integrate_turns(case, model, cycle%flexible, size(series), follower_count(case) + 1, means, error)
       if (allocated(error)) return
       call move_alloc(means%mean, statistics%mean)
       statistics%rows = means%rows
@@ -108,10 +110,7 @@ contains
       statistics%largest_sliding = means%largest_sliding
       statistics%error = cycle%flexible%error
       statistics%error_angle = cycle%flexible%error_angle
-      call list_series(case, series)
-      allocate (mean_errors(follower_count(case) + camshaft_count(case)))
-      call compare_turns(case, model, cycle%flexible, series(:size(mean_errors)), follower_count(case) + 1, mean_errors, &
-         & statistics%missing_oil, error)
+      call compare_turns(case, model, cycle%flexible, series, follower_count(case) + 1, mean_errors, statistics%missing_oil, error)
       if (allocated(error)) return
       worst = maxloc(mean_errors, 1)
       statistics%mean_error = mean_errors(worst)
@@ -119,9 +118,11 @@ contains
    end subroutine integrate_flexible
 
    !> Margins of each lobe shape, and extremes of its followers with their errors.
-   subroutine search_extremes(case, models, cycles, statistics, margins, error)
+   subroutine search_extremes(case, series, models, cycles, statistics, margins, error)
       !> The case
       type(case_t), intent(in), target :: case
+      !> Its series
+      type(quantity_t), intent(in) :: series(:)
       !> Model of each lobe shape
       type(model_t), intent(in), target :: models(:)
       !> Cycle of each lobe shape
@@ -134,13 +135,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(solved_t) :: solved
-      type(quantity_t), allocatable :: series(:)
       integer :: lobe
 
       solved%case => case
       solved%models => models
       solved%cycles => cycles
-      call list_series(case, series)
       allocate (margins(size(models)))
       do lobe = 1, size(models)
          call find_margins(models(lobe), cycles(lobe)%stops, margins(lobe))
@@ -150,9 +149,11 @@ contains
    end subroutine search_extremes
 
    !> Series and summary of a case.
-   subroutine make_result(case, models, cycles, margins, statistics, with_series, result, error)
+   subroutine make_result(case, series, models, cycles, margins, statistics, with_series, result, error)
       !> The case
       type(case_t), intent(in), target :: case
+      !> Its series
+      type(quantity_t), intent(in) :: series(:)
       !> Model of each lobe shape
       type(model_t), intent(in), target :: models(:)
       !> Cycle of each lobe shape
@@ -180,7 +181,7 @@ contains
       integer :: lobe
 
       allocate (result%remarks(0))
-      call list_series(case, result%series)
+      result%series = series
       solved%case => case
       solved%models => models
       solved%cycles => cycles

@@ -6,6 +6,7 @@ module camroller_run
    use camroller_error, only : error_t, raise, add_context, kind_convergence, cause_unknown
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond, first_numerics, most_refinements, refine_tolerance, &
       & resolve_numerics, second_method, way_out
+   use camroller_catalogue, only : list_series
    use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
    use camroller_model, only : model_t, new_model, revise_model
@@ -19,7 +20,7 @@ module camroller_run
    use camroller_means, only : statistics_t
    use camroller_report, only : make_result, search_extremes, take_statistics
    use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_extremes, missed_means, no_period
-   use camroller_result, only : result_t, get_summary
+   use camroller_result, only : quantity_t, result_t, get_summary
    use camroller_running_in, only : aged_t, add_running_in, run_in
    implicit none
    private
@@ -162,23 +163,25 @@ contains
 
       type(numerics_t) :: numerics
       type(try_t) :: latest, earlier
+      type(quantity_t), allocatable :: series(:)
       ! Smallest tolerance that may work [-]
       real(wp) :: least
       integer :: attempt
       logical :: has_result, has_way_out, is_finer
 
+      call list_series(case, series)
       numerics = first_numerics(case%numerics)
       if (allocated(case%dynamics)) numerics = resolve_numerics(case%numerics)
       has_result = .false.
       has_way_out = .false.
       least = 0.0_wp
       do attempt = 0, most_refinements
-         call integrate_models(case, models, numerics, latest, error)
+         call integrate_models(case, series, models, numerics, latest, error)
          if (.not. allocated(error)) then
             call refine(case%numerics, attempt, latest%error, least, numerics, is_finer)
             ! Before the rest of the result is made
             if (.not. is_finer) then
-               call search_extremes(case, models, latest%cycles, latest%statistics, latest%margins, error)
+               call search_extremes(case, series, models, latest%cycles, latest%statistics, latest%margins, error)
                if (.not. (allocated(error) .or. allocated(case%dynamics))) call refine(case%numerics, attempt, &
                   & maxval(latest%statistics%extreme_error), least, numerics, is_finer)
                latest%has_extremes = .not. allocated(error)
@@ -187,8 +190,8 @@ contains
                call move_try(latest, earlier)
                cycle
             end if
-            if (.not. allocated(error)) call make_result(case, models, latest%cycles, latest%margins, latest%statistics, &
-               & with_series, result, error)
+            if (.not. allocated(error)) call make_result(case, series, models, latest%cycles, latest%margins, &
+               & latest%statistics, with_series, result, error)
             has_result = .not. allocated(error)
             if (has_result) exit
          end if
@@ -200,10 +203,10 @@ contains
       if (.not. has_result) then
          if (.not. allocated(earlier%cycles)) return
          deallocate (error)
-         if (.not. earlier%has_extremes) call search_extremes(case, models, earlier%cycles, earlier%statistics, earlier%margins, &
-            & error)
-         if (.not. allocated(error)) call make_result(case, models, earlier%cycles, earlier%margins, earlier%statistics, &
-            & with_series, result, error)
+         if (.not. earlier%has_extremes) call search_extremes(case, series, models, earlier%cycles, earlier%statistics, &
+            & earlier%margins, error)
+         if (.not. allocated(error)) call make_result(case, series, models, earlier%cycles, earlier%margins, &
+            & earlier%statistics, with_series, result, error)
          if (allocated(error)) return
       end if
       call judge(case%numerics, result, error)
@@ -286,9 +289,11 @@ contains
    end subroutine take_way_out
 
    !> Integrate all lobe shapes.
-   subroutine integrate_models(case, models, numerics, try, error)
+   subroutine integrate_models(case, series, models, numerics, try, error)
       !> The case
       type(case_t), intent(in) :: case
+      !> Its series
+      type(quantity_t), intent(in) :: series(:)
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
       !> Method, tolerance, criterion
@@ -305,7 +310,7 @@ contains
          call integrate_cycle(try%cycles(lobe), models(lobe), numerics, error)
          if (allocated(error)) return
       end do
-      call take_statistics(case, models, try%cycles, try%statistics, error)
+      call take_statistics(case, series, models, try%cycles, try%statistics, error)
       if (allocated(error)) return
       try%error = maxval(try%statistics%error)
       if (.not. allocated(case%dynamics)) try%error = max(try%error, maxval(try%statistics%mean_error))

@@ -4,7 +4,7 @@ module test_lobe_curve
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_catalogue, only : camshaft_count, follower_count
+   use camroller_catalogue, only : list_series
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_lobe_curve, only : add_piece, cam_values, close_curve, curve_at, curve_values, halve_pieces, keep_state, &
       & lobe_curve_t, start_curve, telling_points
@@ -12,6 +12,7 @@ module test_lobe_curve
    use camroller_model, only : model_t
    use camroller_panels, only : panel_points
    use camroller_refined_curve, only : follow_steps
+   use camroller_result, only : quantity_t
    use camroller_run, only : build_models
    use camroller_state, only : state_t
    use camroller_torque_list, only : of_residual, torque_count
@@ -176,11 +177,13 @@ contains
       type(lobe_curve_t), intent(out) :: curve
       type(error_t), allocatable, intent(out) :: failure
       type(statistics_t) :: statistics
+      type(quantity_t), allocatable :: series(:)
 
       if (allocated(cycle%flexible)) then
          call follow_steps(model, cycle, curve, failure)
       else
-         call integrate_lobe(the_case, model, cycle, follower_count(the_case) + camshaft_count(the_case), statistics, failure)
+         call list_series(the_case, series)
+         call integrate_lobe(the_case, series, model, cycle, statistics, failure)
          if (.not. allocated(failure)) curve = statistics%curve
       end if
    end subroutine make_curve

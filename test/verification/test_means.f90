@@ -104,7 +104,7 @@ contains
       call list_series(the_case, series)
       call build_models(the_case, models, failure)
       if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), the_case%numerics, failure)
-      if (.not. allocated(failure)) call integrate_lobe(the_case, models(1), cycle, size(series), statistics, failure)
+      if (.not. allocated(failure)) call integrate_lobe(the_case, series, models(1), cycle, statistics, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine take_statistics
 
