@@ -21,8 +21,9 @@ module camroller_bearing_remarks
    real(wp), parameter :: usual_roughness = 0.5e-6_wp
    !> Films are looked at closely from so far above a limit on: the angles of the means lie up to three degrees apart [-]
    real(wp), parameter :: near = 1.25_wp
-   !> Angles of the close look
-   integer, parameter :: angles = 720
+   !> Angles of the close look, and from which one on to the next all are looked at only if a film is near a limit at either: two
+   !> degrees apart
+   integer, parameter :: angles = 720, stride = 4
 
    !> Films of all bearings below a limit
    type :: thin_films_t
@@ -123,21 +124,31 @@ contains
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      type(bearing_state_t) :: states(bearing_number(solved%shaft), solved%shaft%count)
-      ! Torques of each camshaft [N m]; smallest films [m]
-      real(wp) :: torques(torque_count, solved%shaft%count), smallest(size(states, 1), size(states, 2))
+      ! Films of all bearings at an angle, the smallest of each, those at the ends of the strides [m]
+      real(wp), dimension(bearing_number(solved%shaft), solved%shaft%count) :: here, smallest
+      real(wp) :: ends(size(here, 1), size(here, 2), 0:angles/stride)
       ! Angles below each limit
-      integer :: below(size(states, 1), size(states, 2), size(films))
-      integer :: i, k, worst(2)
+      integer :: below(size(here, 1), size(here, 2), size(films))
+      integer :: i, k, left, worst(2)
 
       smallest = huge(1.0_wp)
       below = 0
-      do i = 1, angles
-         call shaft_torques(solved, two_pi*i/angles, torques, error, bearings=states)
+      do i = stride, angles, stride
+         call take_films(solved, i, ends(:, :, i/stride), error)
          if (allocated(error)) return
-         smallest = min(smallest, states%film)
+      end do
+      ends(:, :, 0) = ends(:, :, angles/stride)
+      do i = 1, angles
+         left = (i - 1)/stride
+         here = ends(:, :, left + 1)
+         if (i < stride*(left + 1)) then
+            if (.not. any(ends(:, :, left:left + 1) < near*maxval(films%limit))) cycle
+            call take_films(solved, i, here, error)
+            if (allocated(error)) return
+         end if
+         smallest = min(smallest, here)
          do k = 1, size(films)
-            where (states%film < films(k)%limit) below(:, :, k) = below(:, :, k) + 1
+            where (here < films(k)%limit) below(:, :, k) = below(:, :, k) + 1
          end do
       end do
       worst = minloc(smallest)
@@ -149,6 +160,24 @@ contains
          if (solved%shaft%count > 1) films(k)%bearing = "bearing "//integer_text(worst(1))//" of camshaft "//integer_text(worst(2))
       end do
    end subroutine look_closely
+
+   !> Smallest films of all bearings at one of the angles.
+   subroutine take_films(solved, number, films, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
+      !> Number of the angle
+      integer, intent(in) :: number
+      !> The films, shape (bearing, camshaft) [m]
+      real(wp), intent(out) :: films(:, :)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bearing_state_t) :: states(size(films, 1), size(films, 2))
+      real(wp) :: torques(torque_count, size(films, 2)) ! [N m]
+
+      call shaft_torques(solved, two_pi*number/angles, torques, error, bearings=states)
+      if (.not. allocated(error)) films = states%film
+   end subroutine take_films
 
    !> Length of the words on others.
    pure function others_length(films) result(length)

@@ -67,8 +67,9 @@ module camroller_shaft
       integer, allocatable :: twins(:)
       !> Which torques of `torque_list` the case has
       logical :: has_torque(torque_count) = .false.
-      !> Room for what each cam takes, shape (value, cam) [N m, N], and for the load of each bearing, shape (2, bearing) [N]
-      real(wp), allocatable :: values(:, :), loads(:, :)
+      !> Room for what each cam takes, shape (value, cam) [N m, N], for the force on each in the frame of the first follower, shape
+      !> (2, cam), and for the load of each bearing, shape (2, bearing) [N]
+      real(wp), allocatable :: values(:, :), forces(:, :), loads(:, :)
    end type shaft_t
 
    !> A case that is solved: model and cycle of each lobe shape, and the camshafts that carry them
@@ -164,7 +165,7 @@ contains
       integer :: cam, other
 
       associate (cams => size(shaft%lobes))
-         allocate (shaft%twins(cams), shaft%values(curve_values, cams))
+         allocate (shaft%twins(cams), shaft%values(curve_values, cams), shaft%forces(2, cams))
          do cam = 1, cams
             do other = 1, cam
                if (shaft%lobes(other) == shaft%lobes(cam) .and. .not. abs(shaft%phases(other) - shaft%phases(cam)) > 0.0_wp) exit
@@ -275,13 +276,12 @@ contains
       !> States of the bearings, shape (bearing, camshaft)
       type(bearing_state_t), intent(out), optional :: bearings(:, :)
 
-      ! Torques and force of a cam [N m, N]; force on each cam in the frame of the first follower [N]
-      real(wp) :: values(curve_values), forces(2, size(solved%shaft%lobes))
+      real(wp) :: values(curve_values) ! torques and force of a cam [N m, N]
       integer :: cam
 
       associate (shaft => solved%shaft)
          if (present(cams)) then
-            call add_cams(shaft, cams, torques, forces)
+            call add_cams(shaft, cams, torques)
          else
             do cam = 1, size(shaft%lobes)
                if (shaft%twins(cam) < cam) cycle
@@ -289,21 +289,21 @@ contains
                if (allocated(error)) return
                shaft%values(:, cam) = values
             end do
-            call add_cams(shaft, shaft%values, torques, forces)
+            call add_cams(shaft, shaft%values, torques)
          end if
-         call bearing_torques(shaft, forces, torques(of_bearings, :), error, bearings, angle)
+         call bearing_torques(shaft, shaft%forces, torques(of_bearings, :), error, bearings, angle)
          torques(of_shaft_drag, :) = shaft%drag
       end associate
    end subroutine shaft_torques
 
    !> Torques of the followers of each camshaft together, and the force on each cam in the frame of the first follower.
-   pure subroutine add_cams(shaft, cams, torques, forces)
-      !> The shaft
-      type(shaft_t), intent(in) :: shaft
+   pure subroutine add_cams(shaft, cams, torques)
+      !> The shaft; out: with the forces
+      type(shaft_t), intent(inout) :: shaft
       !> What each cam takes from its follower, shape (value, cam); those of twins are not used [N m, N]
       real(wp), intent(in) :: cams(:, :)
-      !> The torques [N m], last the energy residual [W], shape (torque, camshaft), and the forces, shape (2, cam) [N]
-      real(wp), intent(out) :: torques(:, :), forces(:, :)
+      !> The torques [N m], last the energy residual [W], shape (torque, camshaft)
+      real(wp), intent(out) :: torques(:, :)
 
       integer :: cam
 
@@ -311,7 +311,7 @@ contains
       do cam = 1, size(shaft%lobes)
          associate (values => cams(:, shaft%twins(cam)), k => shaft%shafts(cam))
             torques(:, k) = torques(:, k) + values(:torque_count)
-            forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))
+            shaft%forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))
          end associate
       end do
    end subroutine add_cams
@@ -396,10 +396,13 @@ contains
                   loads(2, bearing) = loads(2, bearing) + shaft%shares(bearing, cam)*forces(2, cam)
                end do
             end do
+            ! A neighbour that carries the same, as under a cam midway between two, has the same state
             do bearing = 1, size(loads, 2)
                if (present(angle) .and. (allocated(shaft%warm) .or. allocated(shaft%orbits))) then
                   call state_of_turn(shaft, bearing, k, angle, loads(:, bearing), state, status)
-               else
+               else if (bearing == 1) then
+                  call carry_load(shaft%journal, loads(:, 1), state, status, shaft%touch)
+               else if (any(abs(loads(:, bearing) - loads(:, bearing - 1)) > 0.0_wp)) then
                   call carry_load(shaft%journal, loads(:, bearing), state, status, shaft%touch)
                end if
                if (status /= journal_solved) then

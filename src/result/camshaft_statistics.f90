@@ -42,6 +42,9 @@ module camroller_camshaft_statistics
       !> Those of them that are of single bearings, the last ones
       integer :: of_bearings = 0
       logical :: keeps_rows = .true.
+      !> Room for torques on each camshaft [N m], for a row [unit of the series], and for bearings, where there are any
+      real(wp), allocatable :: torques(:, :), row(:)
+      type(bearing_state_t), allocatable :: bearings(:, :)
       !> Smallest film of the bearings at the angles evaluated [m]
       real(wp) :: thinnest = huge(1.0_wp)
    contains
@@ -102,6 +105,8 @@ contains
       samples%solved => solved
       samples%series = camshaft_count(solved%case)
       samples%of_bearings = size(single)
+      allocate (samples%torques(torque_count, solved%shaft%count), samples%row(samples%series))
+      if (bearing_number(solved%shaft) > 0) allocate (samples%bearings(bearing_number(solved%shaft), solved%shaft%count))
       call start_samples(samples%rows, samples%series)
       stops = shaft_stops(solved, spread(.true., 1, size(solved%shaft%lobes)))
       call start_panels(panels, size(allowed), 2*size(stops) + ceiling(two_pi/longest_panel))
@@ -151,21 +156,14 @@ contains
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Torques on each camshaft [N m]
-      real(wp) :: torques(torque_count, self%solved%shaft%count)
-      ! Series of the camshafts [unit of the series]
-      real(wp) :: series(self%series)
-      type(bearing_state_t), allocatable :: bearings(:, :)
-
-      if (bearing_number(self%solved%shaft) > 0) allocate (bearings(bearing_number(self%solved%shaft), self%solved%shaft%count))
-      call shaft_torques(self%solved, x, torques, error, bearings=bearings)
+      call shaft_torques(self%solved, x, self%torques, error, bearings=self%bearings)
       if (allocated(error)) return
-      if (allocated(bearings)) self%thinnest = min(self%thinnest, minval(bearings%film))
-      values(:size(torques, 2)) = torques(of_bearings, :)
+      if (allocated(self%bearings)) self%thinnest = min(self%thinnest, minval(self%bearings%film))
+      values(:self%solved%shaft%count) = self%torques(of_bearings, :)
       if (self%of_bearings == 0 .and. .not. self%keeps_rows) return
-      call camshaft_values(self%solved%case, torques, series, bearings, self%solved%shaft%has_torque)
-      values(size(torques, 2) + 1:) = series(self%series - self%of_bearings + 1:)
-      if (self%keeps_rows) call add_sample(self%rows, x, series, .false.)
+      call camshaft_values(self%solved%case, self%torques, self%row, self%bearings, self%solved%shaft%has_torque)
+      values(self%solved%shaft%count + 1:) = self%row(self%series - self%of_bearings + 1:)
+      if (self%keeps_rows) call add_sample(self%rows, x, self%row, .false.)
    end subroutine sample_bearings
 
    !> Smallest and largest values of the camshaft's series, with the largest of their errors.
