@@ -326,7 +326,8 @@ contains
       ! Changes of load group, radius over roughness and rolling resistance, their logarithms [-]
       real(wp) :: group, relative, rolling
 
-      lengths = length_changes(parts, motion)
+      lengths = line_lengths_t(0.0_wp, 0.0_wp, 0.0_wp)
+      if (allocated(model%axial)) lengths = length_changes(parts, motion)
       relative = motion%radius - motion%roughness
       group = motion%load - motion%radius - lengths%mean
       slopes%inlet_factor = 0.0_wp

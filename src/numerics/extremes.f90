@@ -353,7 +353,7 @@ contains
       bound = huge(1.0_wp)
       call look_near(samples, search, row, x, values, jump, outer)
       rises = values([1, 3]) - values(2)
-      if (minval(rises) < 0.0_wp .or. maxval(rises) <= 0.0_wp) return
+      if (min(rises(1), rises(2)) < 0.0_wp .or. max(rises(1), rises(2)) <= 0.0_wp) return
       if (x(3) - x(1) > 2.0_wp*widest .or. jump == on_both_sides) return
       if (jump == 0) then
          bound = values(2) - max(-rises(1)*x(3)/x(1), -rises(2)*x(1)/x(3))
@@ -405,7 +405,12 @@ contains
       integer, intent(in) :: from, to
       real(wp) :: way ! [rad]
 
-      way = modulo(samples%angle(to) - samples%angle(from), two_pi)
+      way = samples%angle(to) - samples%angle(from)
+      if (way < 0.0_wp) then
+         way = way + two_pi
+      else if (way >= two_pi) then
+         way = way - two_pi
+      end if
    end function way
 
    !> Begin near the next row where there is anything to look for.

@@ -22,8 +22,10 @@ module camroller_pivot
       real(wp) :: centre
       !> Angle between the adjuster's axis and the line from pivot to cam centre, chi_h [rad]
       real(wp) :: axis_angle
-      !> Angle from the valve's axis to the adjuster's axis, chi_h - chi [rad]
-      real(wp) :: tilt
+      !> Its cosine and sine [-]
+      real(wp) :: axis_cosine, axis_sine
+      !> Angle from the valve's axis to the adjuster's axis, chi_h - chi [rad], and its cosine [-]
+      real(wp) :: tilt, tilt_cosine
    end type pivot_t
 
 contains
@@ -49,7 +51,10 @@ contains
       pivot%centre = min(usual_centre, gyration)
       if (centre > 0.0_wp) pivot%centre = centre
       pivot%tilt = tilt
+      pivot%tilt_cosine = cos(tilt)
       pivot%axis_angle = valve_axis_angle + tilt
+      pivot%axis_cosine = cos(pivot%axis_angle)
+      pivot%axis_sine = sin(pivot%axis_angle)
       if (pivot%centre <= gyration) return
       call raise(error, kind_deck, "the finger's centre of mass, masses.finger_centre_mm = "// &
          & fixed_text(1.0e3_wp*pivot%centre, 3)//", lies beyond its radius of gyration about the pivot, "// &
@@ -85,7 +90,7 @@ contains
 
       j = -pivot%centre*sin(arm_angle + pivot%axis_angle)
       j_slope = -pivot%centre*cos(arm_angle + pivot%axis_angle)
-      force = -(load*(normal(1)*cos(pivot%axis_angle) - normal(2)*sin(pivot%axis_angle)) + tip_force*cos(pivot%tilt)) &
+      force = -(load*(normal(1)*pivot%axis_cosine - normal(2)*pivot%axis_sine) + tip_force*pivot%tilt_cosine) &
          & + pivot%mass*speed**2*(j*finger_curvature + j_slope*finger_slope**2)
    end function pivot_force
 
