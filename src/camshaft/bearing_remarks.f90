@@ -19,7 +19,8 @@ module camroller_bearing_remarks
 
    !> Film below which usual surfaces touch: the roughness of a ground journal, 0.2 um, and of a bored bearing, 0.4 um, together [m]
    real(wp), parameter :: usual_roughness = 0.5e-6_wp
-   !> Films are looked at closely from so far above a limit on: the angles of the means lie up to three degrees apart [-]
+   !> Films are looked at closely from so far above a limit on: the angles of the means lie up to three degrees apart, or ten where
+   !> all valves rest and loads hardly change [-]
    real(wp), parameter :: near = 1.25_wp
    !> Angles of the close look, and from which one on to the next all are looked at only if a film is near a limit at either: two
    !> degrees apart

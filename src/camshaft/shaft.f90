@@ -12,6 +12,7 @@ module camroller_shaft
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, load_stops, state_at
+   use camroller_lift, only : is_at_rest
    use camroller_lobe_curve, only : lobe_curve_t, contact_near, curve_at, curve_values, cam_values
    use camroller_effect_list, only : effect_bearing_heat, effect_orbit, has_effect
    use camroller_events, only : cycle_stops
@@ -28,7 +29,7 @@ module camroller_shaft
    private
 
    public :: shaft_t, solved_t, new_shaft, set_journal, set_drag, refine_curves, shaft_torques, in_common_frame, bearing_torques
-   public :: bearing_number, cam_at, has_orbits, needs_turn, shaft_stops
+   public :: bearing_number, cam_at, has_orbits, needs_turn, shaft_stops, valves_rest
 
    !> Cams of a shaft
    type :: shaft_t
@@ -239,6 +240,24 @@ contains
       end do
       stops = cycle_stops(stops, solved%cycles(solved%shaft%lobes(1))%start)
    end function shaft_stops
+
+   !> Do the valves of all cams rest, so that nothing but friction changes the loads of bearings, and these alone their torque?
+   pure function valves_rest(solved, angle)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Do they?
+      logical :: valves_rest
+
+      integer :: cam
+
+      valves_rest = .not. (needs_turn(solved%case) .or. allocated(solved%case%gas_force) .or. allocated(solved%case%dynamics))
+      do cam = 1, size(solved%shaft%lobes)
+         if (valves_rest) valves_rest = is_at_rest(solved%models(solved%shaft%lobes(cam))%lift_law, angle &
+            & - solved%shaft%phases(cam))
+      end do
+   end function valves_rest
 
    !> Make the curves better of shapes that several cams have, so that it pays, and where bearings ask for them over the
    !> whole turn: a flexible train has a curve only then.

@@ -19,7 +19,7 @@ module camroller_camshaft_statistics
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_part_series, only : bearing_count, bearing_series_count, load_part
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_shaft, only : bearing_number, shaft_stops, solved_t, shaft_torques
+   use camroller_shaft, only : bearing_number, shaft_stops, solved_t, shaft_torques, valves_rest
    use camroller_slip_errors, only : error_at, state_without
    use camroller_sorting, only : find_order
    use camroller_state, only : state_t
@@ -30,8 +30,8 @@ module camroller_camshaft_statistics
 
    public :: mean_bearing_torque, search_camshaft
 
-   !> Longest panel [rad]
-   real(wp), parameter :: longest_panel = 15.0_wp*degree
+   !> Longest panel, and where nothing but friction changes the load [rad]
+   real(wp), parameter :: longest_panel = 15.0_wp*degree, longest_at_rest = 45.0_wp*degree
 
    !> Bearings of a camshaft on its turn
    type, extends(sampled_t) :: bearing_samples_t
@@ -111,7 +111,8 @@ contains
       stops = shaft_stops(solved, spread(.true., 1, size(solved%shaft%lobes)))
       call start_panels(panels, size(allowed), 2*size(stops) + ceiling(two_pi/longest_panel))
       do segment = 1, size(stops) - 1
-         count = ceiling((stops(segment + 1) - stops(segment))/longest_panel)
+         count = ceiling((stops(segment + 1) - stops(segment))/merge(longest_at_rest, longest_panel, &
+            & valves_rest(solved, 0.5_wp*(stops(segment) + stops(segment + 1)))))
          if (count == 0) cycle
          length = (stops(segment + 1) - stops(segment))/count
          do panel = 1, count

@@ -1,7 +1,7 @@
 !> The curve by which a camshaft takes a follower's torques and force: that of the states, wherever it says that it is known.
 module test_lobe_curve
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp, degree, pi, two_pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_catalogue, only : list_series
@@ -14,6 +14,7 @@ module test_lobe_curve
    use camroller_refined_curve, only : follow_steps
    use camroller_result, only : quantity_t
    use camroller_run, only : build_models
+   use camroller_shaft, only : new_shaft, solved_t, valves_rest
    use camroller_state, only : state_t
    use camroller_torque_list, only : of_residual, torque_count
    use deck_cases, only : get_deck_case
@@ -38,9 +39,46 @@ contains
          new_unittest("the curve of a flexible train with lost contacts agrees with its states", test_flexible), &
          new_unittest("a curve without an interval to halve is returned unchanged", test_nothing_to_halve), &
          new_unittest("without camshaft bearings there is no force, and torques are known where they are with them", test_absent), &
-         new_unittest("points that tell how curves run miss no turn and no jump, and none is for rounding", test_telling) &
+         new_unittest("points that tell how curves run miss no turn and no jump, and none is for rounding", test_telling), &
+         new_unittest("the valves of a camshaft rest where none of its cams lifts one and no gas acts", test_rest) &
          ]
    end subroutine collect_lobe_curve
+
+   !> Cams of the reference lift for 70 degrees to both sides of full lift; a second one lifts half a turn later.
+   subroutine test_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Cam angles from full lift [rad], and where the valves rest with one cam, with two of them
+      real(wp), parameter :: places(6) = [-180.0_wp, -75.0_wp, -65.0_wp, 0.0_wp, 90.0_wp, 120.0_wp]*degree
+      logical, parameter :: expected(6, 2) = reshape([.true., .true., .false., .false., .true., .true., &
+         & .false., .true., .false., .false., .true., .false.], [6, 2])
+      type(case_t), target :: the_case
+      type(model_t), allocatable, target :: models(:)
+      type(solved_t) :: solved
+      type(error_t), allocatable :: failure
+      integer :: cams, i
+
+      call get_deck_case("decks/thesis.nml", the_case, failure)
+      if (.not. allocated(failure)) call build_models(the_case, models, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      solved%case => the_case
+      solved%models => models
+      do cams = 1, 2
+         associate (bearings => the_case%cam_bearings)
+            bearings%cam_positions = spread(0.03_wp, 1, cams)
+            bearings%cam_phases = [(pi*(i - 1), i=1, cams)]
+            bearings%cam_lobes = spread(1, 1, cams)
+            bearings%follower_angles = spread(0.0_wp, 1, cams)
+         end associate
+         call new_shaft(solved%shaft, the_case, models(1)%oil%viscosity, models(1)%speed, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         call check(error, all([(valves_rest(solved, places(i)), i=1, size(places))] .eqv. expected(:, cams)), "valves at rest")
+         if (allocated(error)) return
+      end do
+      allocate (the_case%gas_force)
+      call check(error, .not. valves_rest(solved, places(2)), "gas acts on valves at rest")
+   end subroutine test_rest
 
    subroutine test_known(error)
       type(error_type), allocatable, intent(out) :: error
