@@ -46,6 +46,8 @@ module camroller_cycle
       logical :: has_surface_speed = .false.
       !> Is nothing known about the solution between its points but that it may be taken as linear?
       logical :: is_linear = .false.
+      !> Is the sliding speed that of the quasi-static balance at each angle, as if the roller followed it without delay?
+      logical :: is_quasi_static = .false.
       !> Cam angle from full lift where the cycle starts [rad]
       real(wp) :: start = 0.0_wp
       !> Stops of the cycle, with start and end [rad]
@@ -130,11 +132,9 @@ contains
       call find_stops(model, stops)
       call choose_start(model, cycle%start, state(1), scale, least, cycle%counters%evaluations, decay_rates)
       if (resolved%method == quasi_static) then
-         call check_mobilisation(model, error)
-         if (allocated(error)) return
          cycle%stops = cycle_stops(stops, cycle%start)
-         cycle%cycles = 1
-         call quasi_static_cycle(model, cycle%stops, resolved%tolerance*scale, cycle%trajectory, cycle%counters, error)
+         cycle%scale = least
+         call follow_balances(cycle, model, resolved%tolerance*scale, error)
          return
       end if
       call choose_method(cycle, model, resolved, scale, problem, method, options, error)
@@ -173,6 +173,28 @@ contains
          & "speeds at start and end, at "//trim(problem%name_time(cycle%start))//", differ by more than numerics.periodicity. "// &
          & "Reasons may be a spin with little damping, or explicit steps beyond the stability limit")
    end subroutine integrate_roller
+
+   !> Take the quasi-static balances of the roller for the cycle.
+   subroutine follow_balances(cycle, model, tolerance, error)
+      !> The cycle, with its stops and tolerance
+      type(cycle_t), intent(inout) :: cycle
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Error allowed of the curve [m/s]
+      real(wp), intent(in) :: tolerance
+      !> Deck error for set-valued friction; convergence error where there is no balance
+      type(error_t), allocatable, intent(out) :: error
+
+      type(spin_problem_t) :: problem
+
+      call check_mobilisation(model, error)
+      if (allocated(error)) return
+      cycle%cycles = 1
+      cycle%is_quasi_static = .true.
+      problem%model => model
+      problem%accuracy = contact_accuracy*cycle%tolerance
+      call quasi_static_cycle(problem, cycle%stops, tolerance, cycle%trajectory, cycle%counters, error)
+   end subroutine follow_balances
 
    !> Take the solution of a flexible train for the cycle.
    subroutine take_flexible(cycle, model, numerics, error)

@@ -84,7 +84,7 @@ contains
          call check_contact(model, cycle, statistics, margins, remarks, error)
       end if
       if (.not. allocated(error)) call check_range(model, statistics, remarks, error)
-      call check_error(statistics, remarks)
+      call check_error(cycle, statistics, remarks)
       call check_entrainment(statistics, remarks)
       call check_ends(statistics, remarks)
       if (.not. allocated(cycle%flexible)) call check_pivot(model, margins, remarks)
@@ -241,17 +241,26 @@ contains
       end if
    end subroutine check_contact
 
-   !> Warn where the sliding speed is no answer, as with explicit steps beyond the stability limit.
-   subroutine check_error(statistics, remarks)
+   !> Warn where the sliding speed is no answer, as with explicit steps beyond the stability limit, or without the roller's inertia
+   !> where it matters.
+   subroutine check_error(cycle, statistics, remarks)
+      !> Cycle of the lobe
+      type(cycle_t), intent(in) :: cycle
       !> Means over the cycle of the lobe, with the estimate of its error
       type(statistics_t), intent(in) :: statistics
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       if (statistics%error <= worth_a_warning) return
-      call add_remark(remarks, unresolved_slip, "the sliding speed is not resolved: the estimate of its error is "// &
-         & number_text(statistics%error, 2)//" of the largest; take another method, a smaller tolerance or smaller steps", &
-         & statistics%error)
+      if (cycle%is_quasi_static) then
+         call add_remark(remarks, unresolved_slip, "the sliding speed is that of the quasi-static balance: the inertia of the "// &
+            & "roller, which numerics.method 'quasi_static' leaves out, makes an estimated difference of "// &
+            & number_text(statistics%error, 2)//" of the largest; other methods include it", statistics%error)
+      else
+         call add_remark(remarks, unresolved_slip, "the sliding speed is not resolved: the estimate of its error is "// &
+            & number_text(statistics%error, 2)//" of the largest; take another method, a smaller tolerance or smaller steps", &
+            & statistics%error)
+      end if
    end subroutine check_error
 
    !> Say where the entrainment passes through zero: the smallest film is that of a standstill.

@@ -79,7 +79,8 @@ contains
    !> The error of the sliding speed is then sampled once in each, near its middle. That is enough where the method's curve has the
    !> rates of the equation at its ends, as far as an error of a step goes: the defect is zero there and largest between. At a place
    !> between a quarter and three quarters a hump `x^2 (1 - x)^2` has its mean at least, and the polynomial through the seven points
-   !> and both ends has the integral of two such humps to a twentieth.
+   !> and both ends has the integral of two such humps to a twentieth. The defect of the quasi-static balance is its slope, which is
+   !> smooth where its curve is: no end of an interval is distinguished.
    pure function are_joined(samples, first) result(verdict)
       !> The samples, up to the end of the interval before
       type(follower_samples_t), intent(in) :: samples
@@ -102,6 +103,8 @@ contains
             shorter = minval(lengths)
             if (maxval(lengths) - shorter > balance*sum(lengths)) return
          end associate
+         verdict = samples%cycle%is_quasi_static
+         if (verdict) return
          decay_rate = decay_rate_of(samples%model, contact)
          do i = first, first + 1
             call end_defects(path, i, i, ends)

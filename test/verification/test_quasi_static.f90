@@ -2,6 +2,12 @@
 module test_quasi_static
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller, only : wp, pi, error_t, case_t, result_t, run_case, get_series, get_summary, kind_convergence
+   use camroller_balance, only : find_balance
+   use camroller_kinds, only : degree
+   use camroller_kinematics, only : position_t
+   use camroller_model, only : model_t, new_model
+   use camroller_number_text, only : number_text
+   use camroller_remarks, only : remark_lines
    use reference_cases, only : thesis_case, set_point, point_speeds, point_viscosities
    implicit none
    private
@@ -16,6 +22,11 @@ contains
       testsuite = [ &
          new_unittest("the integration tends to the quasi-static limit as the roller's inertia vanishes", test_limit), &
          new_unittest("in hot oil the quasi-static slip is within one per cent of the integrated one", test_hot), &
+         new_unittest("every sliding speed is that of a balance to the accuracy asked for, and the estimate is no less than its " &
+            & //"error", test_curve), &
+         new_unittest("means and extremes keep to the accuracy asked for", test_accuracy), &
+         new_unittest("the balance takes about as many solutions of the contact as the integration", test_cost), &
+         new_unittest("a remark says how far the inertia of the roller is from being negligible", test_inertia), &
          new_unittest("the energy balance closes in the quasi-static limit", test_energy), &
          new_unittest("loss of contact ends the quasi-static method with an error that names the angle", test_lost) &
          ]
@@ -84,6 +95,142 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_hot
+
+   !> Balances searched for angle by angle, by other steps and without slopes, are what the curve has to pass through.
+   subroutine test_curve(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t) :: model
+      type(position_t) :: position
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      real(wp), allocatable :: speeds(:) ! [m/s]
+      ! Accuracies asked for [-]
+      real(wp), parameter :: accuracies(*) = [1.0e-2_wp, 1.0e-4_wp, 1.0e-6_wp]
+      ! Sliding speed of a balance [m/s], decay rate [1/rad], largest error [m/s], estimate of it over the largest speed [-]
+      real(wp) :: balance, decay_rate, largest, estimate
+      logical :: is_found
+      integer :: i, k, point
+
+      do point = 1, size(point_speeds)
+         the_case = thesis_case()
+         call set_point(the_case, point_speeds(point), point_viscosities(4 - point))
+         the_case%numerics%method = "quasi_static"
+         call new_model(model, the_case, the_case%lift, failure)
+         do i = 1, size(accuracies)
+            the_case%numerics%accuracy = accuracies(i)
+            if (.not. allocated(failure)) call run_case(the_case, result, failure)
+            if (.not. allocated(failure)) call get_series(result, "sliding_speed", speeds, failure)
+            if (.not. allocated(failure)) call get_summary(result, "estimated_error", estimate, failure)
+            if (allocated(failure)) then
+               call test_failed(error, failure%message)
+               return
+            end if
+            largest = 0.0_wp
+            do k = 1, size(speeds)
+               ! Files count cam angles from half a turn before full lift
+               call find_balance(model, (k - 1)*360.0_wp/size(speeds)*degree - pi, 1.0e-12_wp, position, balance, decay_rate, &
+                  & is_found)
+               if (.not. is_found) call test_failed(error, "no balance")
+               if (allocated(error)) return
+               largest = max(largest, abs(speeds(k) - balance))
+            end do
+            largest = largest/maxval(abs(speeds))
+            ! The error allowed for the curve is a hundredth of the accuracy. The smallest slips, 1e-4 of the speed in rolling, are
+            ! searched for to 1e-8 of themselves, which is more than a hundredth of the last accuracy
+            call check(error, largest <= 0.1_wp*accuracies(i) .and. largest <= estimate, number_text(largest, 3)//" at "// &
+               & number_text(accuracies(i))//", estimated "//number_text(estimate, 3))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_curve
+
+   subroutine test_accuracy(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(result_t) :: rough, fine
+      type(error_t), allocatable :: failure
+      ! Accuracies asked for [-]
+      real(wp), parameter :: accuracies(*) = [1.0e-2_wp, 1.0e-4_wp]
+      character(len=*), parameter :: names(*) = [character(len=26) :: "mean_torque_drive", "mean_torque_friction", &
+         & "mean_sliding_speed", "max_sliding_speed", "max_torque_friction", "min_film_thickness_min", "max_hertz_pressure"]
+      ! A value of both results [unit of the value]
+      real(wp) :: value, reference
+      integer :: i, k, point
+
+      do point = 1, size(point_speeds)
+         the_case = thesis_case()
+         call set_point(the_case, point_speeds(point), point_viscosities(4 - point))
+         the_case%numerics%method = "quasi_static"
+         ! A hundred times as many balances as at an accuracy of 1e-2
+         the_case%numerics%tolerance = 1.0e-12_wp
+         call run_case(the_case, fine, failure)
+         the_case%numerics%tolerance = 0.0_wp
+         do i = 1, size(accuracies)
+            the_case%numerics%accuracy = accuracies(i)
+            if (.not. allocated(failure)) call run_case(the_case, rough, failure)
+            do k = 1, size(names)
+               if (.not. allocated(failure)) call get_summary(rough, trim(names(k)), value, failure)
+               if (.not. allocated(failure)) call get_summary(fine, trim(names(k)), reference, failure)
+               if (allocated(failure)) then
+                  call test_failed(error, failure%message)
+                  return
+               end if
+               call check(error, abs(value - reference) <= accuracies(i)*abs(reference), trim(names(k)))
+               if (allocated(error)) return
+            end do
+         end do
+      end do
+   end subroutine test_accuracy
+
+   subroutine test_cost(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Solutions of the contact, those of the integration [-]
+      real(wp) :: evaluations(2)
+      integer :: i, point
+
+      do point = 1, size(point_speeds)
+         the_case = thesis_case()
+         call set_point(the_case, point_speeds(point), point_viscosities(2))
+         do i = 1, 2
+            the_case%numerics%method = merge("quasi_static", "automatic   ", i == 1)
+            if (.not. allocated(failure)) call run_case(the_case, result, failure)
+            if (.not. allocated(failure)) call get_summary(result, "counter_evaluations", evaluations(i), failure)
+         end do
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+         ! One and a half times as many are measured, and thirty times with straight lines between balances
+         call check(error, evaluations(1) <= 2.0_wp*evaluations(2))
+         if (allocated(error)) return
+      end do
+   end subroutine test_cost
+
+   subroutine test_inertia(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      ! Cold oil, where the inertia carries the roller over the base circle, and hot oil
+      do i = 1, 3, 2
+         the_case = thesis_case()
+         call set_point(the_case, point_speeds(1), point_viscosities(i))
+         the_case%numerics%method = "quasi_static"
+         call run_case(the_case, result, failure)
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+         call check(error, (index(remark_lines(result%remarks), "the inertia of the roller, which") > 0) .eqv. i == 1)
+         if (allocated(error)) return
+      end do
+   end subroutine test_inertia
 
    subroutine test_energy(error)
       type(error_type), allocatable, intent(out) :: error
