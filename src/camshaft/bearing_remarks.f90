@@ -1,13 +1,15 @@
-!> Remarks on the bearings of a camshaft: widths that their law is not for, films too thin for it, orbits beyond its fit.
+!> Remarks on the bearings of a camshaft: widths that their law is not for, films too thin for it, orbits beyond its fit; on the
+!> width of a roller's bearing on its pin.
 !>
 !> In: a solved case, the smallest film of each bearing at some angles. Out: remarks, one line of each kind.
 module camroller_bearing_remarks
    use camroller_kinds, only : wp, two_pi
    use camroller_bearing_asperity, only : bearing_state_t, thinnest_film
    use camroller_error, only : error_t
-   use camroller_journal, only : cam_bearings_t, moves_like_finite
+   use camroller_journal, only : moves_like_finite
    use camroller_journal_motion, only : largest_fitted
    use camroller_journal_range, only : compare_width
+   use camroller_needle, only : kind_journal, roller_bearing_names
    use camroller_number_text, only : counted, integer_text, number_text
    use camroller_remarks, only : remark_t, add_remark, bearing_width, orbit_out_of_range, rubbing_bearing
    use camroller_shaft, only : bearing_number, has_orbits, shaft_torques, solved_t
@@ -53,9 +55,9 @@ contains
       ! For smooth surfaces, for the fit of orbits
       type(thin_films_t) :: films(2)
 
+      call judge_widths(solved, remarks)
       if (.not. allocated(solved%case%cam_bearings)) return
       associate (bearings => solved%case%cam_bearings, shaft => solved%shaft)
-         call judge_width(bearings, remarks)
          films(1)%limit = usual_roughness
          if (allocated(shaft%touch)) films(1)%limit = thinnest_film*shaft%touch%roughness
          if (has_orbits(solved%case) .and. moves_like_finite(shaft%journal)) films(2)%limit = (1.0_wp - largest_fitted) &
@@ -72,21 +74,44 @@ contains
       end associate
    end subroutine judge_bearings
 
-   !> Say that bearings have a width that their law is not for.
-   subroutine judge_width(bearings, remarks)
-      !> The bearings
-      type(cam_bearings_t), intent(in) :: bearings
+   !> Say which bearings of a case, those of its camshaft or the pin of its roller, have a width that their law is not for.
+   subroutine judge_widths(solved, remarks)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      character(len=:), allocatable :: words
-      ! By which factor [-]
-      real(wp) :: excess
+      if (allocated(solved%case%cam_bearings)) then
+         associate (bearings => solved%case%cam_bearings)
+            call judge("cam_bearings.law", bearings%law, bearings%width, bearings%diameter, "these have")
+         end associate
+      end if
+      if (.not. allocated(solved%case%needle_bearing)) return
+      associate (bearing => solved%case%needle_bearing)
+         if (bearing%kind == roller_bearing_names(kind_journal)) call judge("needle_bearing.pin_law", bearing%film%law, &
+            & bearing%film%width, 2.0_wp*solved%models(1)%bearing%radius, "the pin has")
+      end associate
 
-      call compare_width(bearings%law, bearings%width, bearings%diameter, excess, words)
-      if (excess > 0.0_wp) call add_remark(remarks, bearing_width, "cam_bearings.law '"//trim(bearings%law)//"' "//words// &
-         & "; these have "//number_text(bearings%width/bearings%diameter, 3), excess)
-   end subroutine judge_width
+   contains
+
+      !> The remark on one kind of bearing.
+      subroutine judge(key, law, width, diameter, holder)
+         !> Key of its law, the law
+         character(len=*), intent(in) :: key, law
+         !> Width, diameter [m]
+         real(wp), intent(in) :: width, diameter
+         !> What has the width, as a subject with its verb
+         character(len=*), intent(in) :: holder
+
+         character(len=:), allocatable :: words
+         real(wp) :: excess ! by which factor [-]
+
+         call compare_width(law, width, diameter, excess, words)
+         if (excess > 0.0_wp) call add_remark(remarks, bearing_width, key//" '"//trim(law)//"' "//words//"; "//holder//" "// &
+            & number_text(width/diameter, 3), excess)
+      end subroutine judge
+
+   end subroutine judge_widths
 
    !> Say that a film is too thin for smooth surfaces.
    subroutine add_rubbing(films, has_asperities, remarks)

@@ -1,7 +1,8 @@
 !> Checks of what is given about the oil: its viscosity at high temperature and high shear rate (HTHS), as on its data sheet, beside
 !> the law of viscosity; its temperature, beside those at which something is known of it.
 !>
-!> In: what is given about the oil. Out: how much of its viscosity is left under shear; how far its temperature is from all points.
+!> In: what is given about the oil. Out: how much of its viscosity is left under shear; how far its temperature is from all points,
+!> and from where its pressure-viscosity coefficient can be estimated.
 !> One number for one temperature and shear rate makes no law of shear thinning, which takes the rate at which it begins and the
 !> viscosity that it ends at, both over temperature (Marx, Fernandez, Barcelo and Spikes 2018, Tribology Letters 66, 92): no result
 !> follows from it.
@@ -15,7 +16,7 @@ module camroller_oil_checks
    implicit none
    private
 
-   public :: compare_hths, find_far_points
+   public :: compare_hths, find_far_points, judge_estimate
 
    !> Temperature of HTHS [K]; its shear rate is 1e6 1/s: ASTM D4683
    real(wp), parameter :: hths_temperature = 423.15_wp
@@ -117,5 +118,45 @@ contains
       end subroutine look_at
 
    end subroutine find_far_points
+
+   !> Say that a pressure-viscosity coefficient is estimated where the formula has no sense left: that of an oil falls as its
+   !> temperature rises, and the formula's has a largest value somewhere in the cold, below which it falls as the oil gets colder.
+   subroutine judge_estimate(case, distance, words)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> How far the oil is colder than where the estimate is largest, 0 where it is not colder [K]
+      real(wp), intent(out) :: distance
+      !> The same in words; blank where it is not
+      character(len=:), allocatable, intent(out) :: words
+
+      ! Temperatures that are compared are so far apart, and at most so many [K]
+      real(wp), parameter :: step = 1.0_wp
+      integer, parameter :: most = 100
+      real(wp) :: last ! coefficient one step before [1/Pa]
+      type(oil_t) :: oil, warmer
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      distance = 0.0_wp
+      words = ""
+      associate (temperature => case%operating_point%oil_temperature)
+         call get_oil(case%lubricant, temperature, oil, failure)
+         if (allocated(failure)) return
+         if (.not. oil%is_estimated) return
+         warmer = oil
+         do i = 1, most
+            last = warmer%pressure_viscosity
+            call get_oil(case%lubricant, temperature + i*step, warmer, failure)
+            if (allocated(failure)) exit
+            if (.not. warmer%pressure_viscosity > last) exit
+            distance = i*step
+         end do
+         if (distance <= 0.0_wp) return
+         words = "the pressure-viscosity coefficient, "//number_text(1.0e9_wp*oil%pressure_viscosity, 3)//" 1/GPa at "// &
+            & number_text(temperature - celsius_zero, 5)//" degC, is estimated by the formula of So and Klaus, which makes it "// &
+            & "fall with the cold below "//number_text(temperature + distance - celsius_zero, 3)//" degC, where that of oils "// &
+            & "rises; give lubricant.pressure_viscosity_points_per_GPa"
+      end associate
+   end subroutine judge_estimate
 
 end module camroller_oil_checks

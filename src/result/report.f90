@@ -19,8 +19,8 @@ module camroller_report
    use camroller_series_extremes, only : extremes_t, find_extremes, find_lobe_extremes
    use camroller_margins, only : margins_t, find_margins
    use camroller_names, only : name_length
-   use camroller_oil_checks, only : find_far_points
-   use camroller_remarks, only : add_remark, far_temperature
+   use camroller_oil_checks, only : find_far_points, judge_estimate
+   use camroller_remarks, only : add_remark, cold_estimate, far_temperature
    use camroller_result, only : result_t, quantity_t, check_numbers, find_quantity
    use camroller_part_series, only : bearing_count, bearing_series_count
    use camroller_bearing_turn, only : complete_shaft
@@ -250,7 +250,7 @@ contains
       end do
    end subroutine judge_extremes
 
-   !> Remark on a temperature of the oil far from all at which its laws are given.
+   !> Remarks on a temperature of the oil far from all at which its laws are given, or beyond what they are estimated for.
    subroutine judge_temperature(case, result)
       !> The case
       type(case_t), intent(in) :: case
@@ -263,6 +263,8 @@ contains
 
       call find_far_points(case, distance, words)
       if (distance > 0.0_wp) call add_remark(result%remarks, far_temperature, words, distance)
+      call judge_estimate(case, distance, words)
+      if (distance > 0.0_wp) call add_remark(result%remarks, cold_estimate, words, distance)
    end subroutine judge_temperature
 
    !> Cam angles of the output, 0 to 360 with the nose at 180, end point left out [deg].

@@ -7,13 +7,14 @@ module test_result_remarks
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
    use camroller_number_text, only : number_text
-   use camroller_remarks, only : bearing_width, film_without_limit, foreign_asperities, orbit_out_of_range, outside_range, &
-      & remark_lines, rolling_out_of_range, rubbing_bearing
+   use camroller_remarks, only : bearing_width, cold_estimate, film_without_limit, foreign_asperities, orbit_out_of_range, &
+      & outside_range, remark_lines, rolling_out_of_range, rubbing_bearing
+   use camroller_lubricant, only : get_oil, lubricant_t, oil_t
    use camroller_result, only : find_quantity, get_summary, result_t
    use camroller_run, only : run_case
    use closeness, only : expect_error
    use lobe_cases, only : fast, low_lift, run, thesis_lift, two_lobes
-   use reference_cases, only : thesis_case, set_point, point_speeds, point_viscosities
+   use reference_cases, only : add_pin_film, thesis_case, set_point, point_speeds, point_viscosities
    implicit none
    private
 
@@ -30,6 +31,8 @@ contains
          new_unittest("contact_policy 'stop' refuses loss of contact and no other remark", test_policy), &
          new_unittest("rolling resistance by a law for elastic contacts gives a remark where the contact is rigid", test_rolling), &
          new_unittest("a camshaft bearing whose width its law is not for gives a remark with how far", test_width), &
+         new_unittest("a roller's pin whose width its law is not for gives the same remark", test_pin_width), &
+         new_unittest("a pressure-viscosity coefficient estimated where it falls with the cold gives a remark", test_cold), &
          new_unittest("a film of a camshaft bearing too thin for smooth surfaces gives a remark", test_thin_film), &
          new_unittest("an orbit beyond the eccentricities of its fit gives a remark", test_far_orbit), &
          new_unittest("a rough film gives a remark with asperities of Greenwood and Tripp, not with its own", test_asperities), &
@@ -208,6 +211,74 @@ contains
       if (allocated(error)) return
       call check(error, count(result%remarks%kind == bearing_width), 0)
    end subroutine test_width
+
+   subroutine test_pin_width(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      character(len=*), parameter :: laws(3) = [character(len=12) :: "short_ocvirk", "short_ocvirk", "finite"]
+      ! Width over diameter; by which factor it is too large, 0 where it is not [-]
+      real(wp), parameter :: ratios(3) = [0.75_wp, 0.45_wp, 0.75_wp], factors(3) = [1.5_wp, 0.0_wp, 0.0_wp]
+      integer :: i
+
+      do i = 1, size(laws)
+         case = thesis_case()
+         call add_pin_film(case, trim(laws(i)))
+         associate (film => case%needle_bearing%film)
+            film%width = ratios(i)*2.0_wp*(case%mechanism%roller_radius - case%roller%wall_thickness)
+         end associate
+         call run(case, result, error)
+         if (allocated(error)) return
+         call check(error, count(result%remarks%kind == bearing_width), merge(1, 0, factors(i) > 0.0_wp))
+         if (allocated(error)) return
+         if (.not. factors(i) > 0.0_wp) cycle
+         associate (remark => result%remarks(findloc(result%remarks%kind, bearing_width, 1)))
+            call check(error, remark%size, factors(i), thr=1.0e-12_wp)
+            if (allocated(error)) return
+            call check(error, remark%text, "needle_bearing.pin_law 'short_ocvirk' is for bearings narrower than 0.5 diameters; "// &
+               & "'finite' covers 0.1 to 1; the pin has 0.75")
+            if (allocated(error)) return
+         end associate
+      end do
+   end subroutine test_pin_width
+
+   subroutine test_cold(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(lubricant_t) :: sheet
+      type(oil_t) :: oil, warmer
+      type(error_t), allocatable :: failure
+      ! Temperatures on both sides of the largest estimate [K]
+      real(wp), parameter :: temperatures(3) = [243.15_wp, 253.15_wp, 283.15_wp]
+      logical :: falls
+      integer :: i
+
+      sheet%temperature_law = "data_sheet"
+      sheet%sae_grade = "10W-40"
+      do i = 1, size(temperatures)
+         case = thesis_case()
+         case%lubricant = sheet
+         case%operating_point%oil_temperature = temperatures(i)
+         call get_oil(sheet, temperatures(i), oil, failure)
+         if (.not. allocated(failure)) call get_oil(sheet, temperatures(i) + 5.0_wp, warmer, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         falls = oil%pressure_viscosity < warmer%pressure_viscosity
+         ! The formula has its largest value between the second and the third temperature
+         call check(error, falls .eqv. i < 3)
+         if (allocated(error)) return
+         call run(case, result, error)
+         if (allocated(error)) return
+         call check(error, count(result%remarks%kind == cold_estimate), merge(1, 0, falls))
+         if (allocated(error)) return
+      end do
+      ! What is given is no estimate
+      case%operating_point%oil_temperature = temperatures(1)
+      case%lubricant%pressure_viscosity = 3.0e-8_wp
+      call run(case, result, error)
+      if (.not. allocated(error)) call check(error, count(result%remarks%kind == cold_estimate), 0)
+   end subroutine test_cold
 
    !> The remark comes where the film of the series is below half of the roughness, without asperities below half a micrometre
    subroutine test_thin_film(error)
