@@ -189,9 +189,9 @@ def _read(path, file, with_series):
             raise ResultError(f"{path}: column {key} does not have one value for each case")
     run = {name: text_of(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
     messages = [text_of(message) for message in file["run/messages"][()]] if "run/messages" in file else []
-    return Result(path, angle, series, _datasets(file, "summary"),
+    return Result(path, angle, series, _without_none(_datasets(file, "summary")),
                   _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases, measured, _datasets(file, "running_in"),
-                  _datasets(file, "turns"))
+                  _without_none(_datasets(file, "turns")))
 
 
 def _read_series(path, file):
@@ -228,6 +228,15 @@ def _datasets(file, group):
             lambda name, item: found.update({name.replace("/", "."): _quantity(item)})
             if isinstance(item, h5py.Dataset) else None)
     return found
+
+
+def _without_none(quantities):
+    """Not-a-number where a valve never meets its seat: files hold numbers alone, and a speed of seating of 0 stands for none."""
+    for name in [name for name in quantities if name.endswith("seating_speed")]:
+        none = quantities[name].values == 0
+        for of_it in (name + suffix for suffix in ("", "_deviation", "_lowest", "_highest") if name + suffix in quantities):
+            quantities[of_it].values = np.where(none, np.nan, quantities[of_it].values)
+    return quantities
 
 
 def _quantity(data):

@@ -68,6 +68,25 @@ def test_every_turn_of_a_motion_that_does_not_repeat_has_its_dot(tmp_path):
     assert dots == {1200.0: [0.1, 0.3], 1800.0: [0.5, 0.6, 0.7]}
 
 
+def test_a_valve_that_never_meets_its_seat_has_no_speed_of_seating(tmp_path):
+    """Files state it as 0: a logarithmic axis would draw that as a fall to its lower end, and a table as a speed."""
+    path = write_sweep(tmp_path / "a.h5", [1e-5])
+    with h5py.File(path, "a") as file:
+        for name in ("seating_speed", "seating_speed_lowest", "seating_speed_highest"):
+            file[f"summary/{name}"][2] = 0.0
+        file["summary/seating_speed_deviation"] = [0.0, 0.1, 0.0]
+        file["turns/seating_speed"] = [[np.nan] * 3, [0.1, 0.0, 0.3], [0.0] * 3]
+    result = read_result(path)
+    for name in ("seating_speed", "seating_speed_lowest", "seating_speed_highest", "seating_speed_deviation"):
+        values = result.summary[name].values
+        assert np.isnan(values[2]) and np.isfinite(values[:2]).all(), name
+    below = campbell.draw(result).axes[2]
+    assert not any((np.asarray(line.get_ydata()) == 0).any() for line in below.lines)
+    dots = {line.get_xdata()[0]: list(line.get_ydata()) for line in below.lines if line.get_marker() == "o" and line.get_xdata().size}
+    assert dots[1200.0] == pytest.approx([0.1, np.nan, 0.3], nan_ok=True)
+    campbell.main([str(path)])
+
+
 def test_figure_is_written_and_other_sweeps_are_refused(tmp_path, capsys):
     path = write_sweep(tmp_path / "a.h5", [1e-5])
     assert campbell.main([str(path)]) == 0 and (tmp_path / "a_campbell.png").stat().st_size > 10_000

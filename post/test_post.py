@@ -191,6 +191,10 @@ def test_turns_of_a_train_that_does_not_repeat_are_drawn_one_by_one(tmp_path):
     assert lift.lines[0].get_ydata() == pytest.approx([-1.0, 1.0]) and list(load.lines[0].get_xdata()) == [1, 2]
     assert list(seating.lines[0].get_ydata()) == [0.2, 0.3] and list(section.lines[0].get_ydata()) == [0.1, -0.1]
     assert section.lines[0].get_label().endswith("repeats after 2 turns")
+    with h5py.File(path, "a") as file:  # the valve does not close in the first turn, and the second stays the second
+        file["turns/seating_speed"][1, 0] = 0.0
+    seating = draw("turns", Layout([read_result(path)])).axes[2].lines[0]
+    assert list(seating.get_xdata()) == [1, 2] and list(seating.get_ydata()) == pytest.approx([np.nan, 0.3], nan_ok=True)
     with h5py.File(path, "a") as file:
         del file["turns"]
     with pytest.raises(Missing, match="repeat every turn"):

@@ -14,11 +14,11 @@ PANELS = (("lift at the nose less its mean", "um", 1e6, LIFT), ("largest contact
 
 
 def turns_of(result, name, case):
-    """A measure of all turns of a case; none where its turns are not listed."""
+    """A measure of all turns of a case, not-a-number in those that do not have it; none where its turns are not listed."""
     if name not in result.turns:
         return np.zeros(0)
-    values = result.turns[name].values[case]
-    return values[np.isfinite(values)]
+    listed = np.any([np.isfinite(measure.values[case]) for measure in result.turns.values()], axis=0)
+    return result.turns[name].values[case][:np.max(np.nonzero(listed)[0], initial=-1) + 1]
 
 
 def turns_figure(layout, _whole_cycle=None):
