@@ -18,7 +18,7 @@ module camroller_case_facts
    implicit none
    private
 
-   public :: describe_case
+   public :: describe_case, quick_case
 
    !> Step of the cam angle in which geometry is looked at [rad]
    real(wp), parameter :: step = 0.25_wp*degree
@@ -99,10 +99,6 @@ contains
       !> Deck or domain error of the case's models; a run that fails is told among the lines
       type(error_t), allocatable, intent(out) :: error
 
-      ! Tolerance of the run of a flexible train, whose turns are not integrated again for the accuracy of a deck: enough for three
-      ! digits [-]
-      real(wp), parameter :: quick_tolerance = 1.0e-3_wp
-      type(case_t) :: quick
       type(model_t), allocatable :: models(:)
       type(result_t) :: result
       type(error_t), allocatable :: failure
@@ -117,9 +113,7 @@ contains
          if (lobe == 2) call describe_table(case%second_lift, text)
          call describe_cam(models(lobe), trim(merge("second lobe:", "lobe:       ", lobe == 2)), text)
       end do
-      quick = case
-      if (allocated(case%dynamics) .and. .not. case%numerics%tolerance > 0.0_wp) quick%numerics%tolerance = quick_tolerance
-      call run_case(quick, result, failure)
+      call run_case(quick_case(case), result, failure)
       if (allocated(failure)) then
          text = text//"run: "//failure%message//new_line("a")
          return
@@ -129,6 +123,21 @@ contains
             & trim(merge("second lobe:", "lobe:       ", lobe == 2)), text)
       end do
    end subroutine describe_case
+
+   !> A case to be run at once: a flexible train, whose turns are not integrated again for the accuracy of a deck, with a tolerance
+   !> that is enough for three digits.
+   function quick_case(case) result(quick)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The same with that tolerance, unless its own is given
+      type(case_t) :: quick
+
+      ! The tolerance [-]
+      real(wp), parameter :: quick_tolerance = 1.0e-3_wp
+
+      quick = case
+      if (allocated(case%dynamics) .and. .not. case%numerics%tolerance > 0.0_wp) quick%numerics%tolerance = quick_tolerance
+   end function quick_case
 
    !> Oil and surfaces.
    subroutine describe_oil(case, model, text)
