@@ -38,8 +38,9 @@ setup: ## system packages, Python tools in .venv, test-drive
 commit: setup
 	@tools/write_commit.sh
 
-build: commit ## the program: build/release/bin/camroller
-	@$(FPM) install --flag "$(RELEASE_FLAGS)" --prefix build/release > build/release.log 2>&1 || \
+# with what the program does not use as well, for examples and the program for many nodes
+build: commit ## the program: build/release/bin/camroller; the library beside it
+	@$(FPM) install --no-prune --flag "$(RELEASE_FLAGS)" --prefix build/release > build/release.log 2>&1 || \
 	  { cat build/release.log; exit 1; }
 
 debug: commit ## the program with all run-time checks: build/debug/bin/camroller
