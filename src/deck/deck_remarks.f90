@@ -133,7 +133,7 @@ contains
       if (.not. allocated(key%default)) return
       call read_value(key, key%default, default, reason)
       if (key%type == type_number) then
-         verdict = value%numbers(1) == default%numbers(1)
+         verdict = abs(value%numbers(1) - default%numbers(1)) <= 0.0_wp
       else
          verdict = value%text == default%text
       end if
