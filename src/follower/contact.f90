@@ -215,7 +215,7 @@ contains
          if (slope > 0.0_wp) shift = -excess/slope
          if (abs(shift)*step_curvature*max(abs(shift), share_tolerance) + change**2 <= enough) then
             call shift_contact(model, position, moment, basis, hinge, slopes, shift, contact)
-            return
+            if (contact%load > 0.0_wp) return
          end if
          ! Only a converged share tells on which side of the root the load lies
          if (abs(change) <= share_tolerance) then
@@ -290,7 +290,8 @@ contains
       contact%tangential_force = contact%traction + contact%rolling_resistance*basis%parts%rolling_part
       if (has_pin_film(model)) contact%bearing_torque = contact%bearing_torque + slopes%bearing_torque*shift
       call rebalance(model, position, moment, basis%setting, hinge, contact)
-
+      ! Where friction nearly lifts the roller off, what these derivatives leave out may be more than the load
+      if (.not. contact%load > 0.0_wp) return
       contact%length = contact%length*(1.0_wp + basis%parts%lengths_by_load%mean*shift)
       contact%half_width = half_width(contact%load, position%equivalent_radius, contact%length, model%modulus)
       contact%apparent_area = 2.0_wp*contact%half_width*contact%length

@@ -297,3 +297,10 @@ def test_a_run_writes_profiles_where_the_deck_asks(camroller, tmp_path):
             assert numpy.allclose(file["ehl"][mine][0], file["series"][run][0], rtol=1e-12, atol=0)
         # the table is within one per cent of solutions; asperities at each place take some of the film's load
         assert numpy.allclose(file["ehl/film_min"][0], file["series/film_thickness_min"][0], rtol=0.03)
+
+
+def test_friction_that_nearly_lifts_the_roller_off_ends_with_words(camroller, tmp_path):
+    """The last step to the balance took more than all of the load there, and its root was no number."""
+    deck = ROOT / "test/data/lifted_roller/deck.nml"
+    result = subprocess.run([camroller, "run", str(deck), "-o", str(tmp_path / "a.h5")], capture_output=True, text=True, check=False)
+    assert result.returncode == 4 and "contact is lost for 0.57" in result.stderr
