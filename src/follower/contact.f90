@@ -216,6 +216,8 @@ contains
          if (abs(shift)*step_curvature*max(abs(shift), share_tolerance) + change**2 <= enough) then
             call shift_contact(model, position, moment, basis, hinge, slopes, shift, contact)
             if (contact%load > 0.0_wp) return
+            ! That was no step: the contact at this load again
+            call evaluate_contact(model, position, basis%setting, load, contact, basis%parts, change)
          end if
          ! Only a converged share tells on which side of the root the load lies
          if (abs(change) <= share_tolerance) then
