@@ -22,8 +22,8 @@ export DEBUG_FLAGS := $(COMMON_FLAGS) -g -Og -Wall -Wextra -Wimplicit-interface 
   -fcheck=all -ffpe-trap=invalid,zero,overflow -finit-real=snan
 export OPTIMISED_FLAGS := $(COMMON_FLAGS) -O3
 # The program: with -flto small procedures of other modules are inlined, a tenth fewer instructions a case and not one bit of a result
-# another (doc/notes/batch.md). Tests go without, since each program that is linked so takes minutes. gcc-ar writes the index of such
-# objects, which hold machine code as well, for programs that are linked with the library the plain way.
+# another (doc/notes/batch.md). Linking so takes minutes: `make test` links its tests with the machine code that the objects hold as well,
+# and other targets compile without. gcc-ar writes the index of such objects.
 export RELEASE_FLAGS := $(OPTIMISED_FLAGS) -flto=auto -ffat-lto-objects
 export FPM_AR := gcc-ar
 export SANITIZE_FLAGS := $(COMMON_FLAGS) -O1 -fno-omit-frame-pointer -fsanitize=address,undefined

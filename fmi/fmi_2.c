@@ -26,7 +26,7 @@ typedef struct {
 } component;
 
 /* A message is a format, where % and # begin something: each stands twice for itself. */
-static void tell(void *who, const char *message) {
+static void tell(void *who, int is_error, const char *message) {
    component *self = who;
    char text[2 * sizeof ((camroller_error *)0)->message], *next = text;
    if (self->callbacks->logger == NULL) return;
@@ -35,7 +35,8 @@ static void tell(void *who, const char *message) {
       if (*message == '%' || *message == '#') *next++ = *message;
    }
    *next = 0;
-   self->callbacks->logger(self->callbacks->environment, self->name, fmi2Error, "logStatusError", text);
+   self->callbacks->logger(self->callbacks->environment, self->name, is_error ? fmi2Error : fmi2Warning,
+                           is_error ? "logStatusError" : "logStatusWarning", text);
 }
 
 static fmi2Status status_of(int is_right) {
@@ -94,7 +95,7 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
    self->name = calloc(1, strlen(name) + 1);
    if (self->name != NULL) strcpy(self->name, name);
    if (self->name == NULL || type != 1 || resources == NULL) {
-      tell(self, "the FMU is for co-simulation, and needs the place of its resources");
+      tell(self, 1, "the FMU is for co-simulation, and needs the place of its resources");
    } else {
       path_of(resources, path, sizeof path);
       self->core = instance_new(path, tell, self);

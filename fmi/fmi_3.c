@@ -17,9 +17,10 @@ typedef struct {
    double start_time;
 } component;
 
-static void tell(void *who, const char *message) {
+static void tell(void *who, int is_error, const char *message) {
    component *self = who;
-   if (self->logger != NULL) self->logger(self->environment, fmi3Error, "logStatusError", message);
+   if (self->logger == NULL) return;
+   self->logger(self->environment, is_error ? fmi3Error : fmi3Warning, is_error ? "logStatusError" : "logStatusWarning", message);
 }
 
 static fmi3Status status_of(int is_right) {
@@ -52,7 +53,7 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
    self->logger = logger;
    self->environment = environment;
    if (resources == NULL) {
-      tell(self, "the FMU needs the place of its resources");
+      tell(self, 1, "the FMU needs the place of its resources");
    } else {
       self->core = instance_new(resources, tell, self);
    }

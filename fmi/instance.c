@@ -51,7 +51,7 @@ struct instance {
 };
 
 int instance_refuse(instance *self, const char *message) {
-   self->tell(self->who, message);
+   self->tell(self->who, 1, message);
    return 0;
 }
 
@@ -201,8 +201,11 @@ static double value_of(const instance *self, enum kind kind, int cam) {
 }
 
 int instance_start(instance *self, double time) {
+   char remarks[sizeof self->error.message];
    camroller_case *made = case_of(self, self->now.values);
    if (made == NULL) return 0;
+   camroller_case_remarks(made, remarks, sizeof remarks);
+   if (remarks[0] != 0) self->tell(self->who, 0, remarks);
    camroller_shaft_free(self->now.shaft);
    self->now.shaft = NULL;
    int is_right = heard(self, camroller_shaft_new(made, value_of(self, START_ANGLE, 0), 1, &self->now.shaft, &self->error));

@@ -9,8 +9,8 @@
 typedef struct instance instance;
 typedef struct state state;
 
-/* Who hears of what went wrong */
-typedef void (*listener)(void *who, const char *message);
+/* Who hears of errors, and of remarks, with which an instance goes on */
+typedef void (*listener)(void *who, int is_error, const char *message);
 
 /* Every call returns 1, or 0 after the listener has heard why not. Numbers of variables are those of the model description. */
 HIDDEN instance *instance_new(const char *resources, listener tell, void *who);
@@ -18,7 +18,8 @@ HIDDEN void instance_free(instance *self);
 HIDDEN int instance_reset(instance *self);
 HIDDEN int instance_get(instance *self, unsigned number, double *value);
 HIDDEN int instance_set(instance *self, unsigned number, double value);
-/* The end of the initialisation: the case is made of the parameters, its followers are put at their start. */
+/* The end of the initialisation: the case is made of the parameters, its followers are put at their start. Remarks on its deck are
+ * told. */
 HIDDEN int instance_start(instance *self, double time);
 HIDDEN int instance_step(instance *self, double time, double length);
 /* Say that something cannot be. */

@@ -66,6 +66,9 @@ void camroller_case_free(camroller_case *self);
  * any or all of them NULL, and the value in that unit. CAMROLLER_USAGE tells that there are no more. */
 int camroller_case_number(const camroller_case *self, size_t number, char *const texts[3], size_t room, double *value,
                           camroller_error *error);
+/* Remarks on the deck, one a line, empty where there are none: numbers that no engine has, keys without effect. A run has others, see
+ * camroller_result_remarks. */
+void camroller_case_remarks(const camroller_case *self, char *buffer, size_t room);
 /* Cases of the deck's sweep, 1 without one. A case stands for its deck without the sweep; the case of a number, from 0, is made
  * of it. Name of a key that varies, from 0, and its value in a case as a deck has it; CAMROLLER_USAGE tells that there are no more. */
 size_t camroller_case_sweep_size(const camroller_case *self);

@@ -9,6 +9,7 @@ module camroller
       & kind_domain, kind_convergence, kind_file, kind_internal, case_t, operating_point_t, numerics_t, lift_t, mechanism_t, &
       & masses_t, spring_t, gas_force_t, materials_t, surface_t, lubricant_t, film_t, ehl_t, asperity_t, traction_t, heat_t, &
       & needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t, deck_t, override_t, read_deck, parse_deck, make_case, &
+      & list_deck_remarks, line_t, &
       & run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread, simulation_t, outcome_t, &
       & inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation, shaft_simulation_t, shaft_outcome_t, &
       & start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, shaft_angle, shaft_values, &
@@ -34,7 +35,7 @@ module camroller
    public :: needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t
    public :: bearing_asperity_t, belt_pull_t, bearing_heat_t, shaft_drag_t, friction_modifier_t, roller_profile_t, boundary_law_t
    public :: wear_t, tribofilm_t, running_in_t
-   public :: deck_t, override_t, read_deck, parse_deck, make_case
+   public :: deck_t, override_t, read_deck, parse_deck, make_case, list_deck_remarks, line_t
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
    public :: run_sweep, sweep_options_t, sweep_report_t, sweep_cases, sink_t, case_outcome_t, layout_t, monitor_t
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation

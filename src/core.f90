@@ -34,6 +34,8 @@ module camroller_core
    use camroller_camshaft, only : belt_pull_t
    use camroller_shaft_drag, only : shaft_drag_t
    use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case
+   use camroller_deck_remarks, only : list_deck_remarks
+   use camroller_mistakes, only : line_t
    use camroller_run, only : run_case
    use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
    use camroller_saved_simulation, only : save_simulation, restore_simulation, save_shaft, restore_shaft
@@ -53,7 +55,7 @@ module camroller_core
    public :: needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t
    public :: bearing_asperity_t, belt_pull_t, bearing_heat_t, shaft_drag_t, friction_modifier_t, roller_profile_t, boundary_law_t
    public :: wear_t, tribofilm_t, running_in_t
-   public :: deck_t, override_t, read_deck, parse_deck, make_case
+   public :: deck_t, override_t, read_deck, parse_deck, make_case, list_deck_remarks, line_t
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
    public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft

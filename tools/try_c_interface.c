@@ -250,11 +250,20 @@ static void test_simulation(const camroller_case *self) {
 static void test_deck(const camroller_case *self) {
    camroller_case *copy = NULL, *varied = NULL;
    char name[64], unit[32], meaning[400], *texts[3] = {name, unit, meaning}, *few[2] = {name, unit}, *nothing[3] = {NULL, NULL, NULL};
+   char remarks[2000];
    double value = 0.0;
    size_t count = 0, cases;
    REFUSED(CAMROLLER_USAGE, "NULL", camroller_case_copy, NULL, &copy);
    REFUSED(CAMROLLER_USAGE, "'out'", camroller_case_copy, self, NULL);
    CHECK(camroller_case_copy(self, &copy, &error) == 0);
+   camroller_case_remarks(copy, remarks, sizeof remarks);
+   CHECK(remarks[0] == 0);
+   CHECK(camroller_case_set(copy, "roller.mass_kg", "5", &error) == 0);
+   camroller_case_remarks(copy, remarks, sizeof remarks);
+   CHECK(strstr(remarks, "roller.mass_kg") != NULL);
+   camroller_case_remarks(NULL, remarks, sizeof remarks);
+   CHECK(remarks[0] == 0);
+   camroller_case_remarks(copy, NULL, 0);
    CHECK(camroller_case_set(copy, "roller.mass_kg", "0.5", &error) == 0);
    for (size_t i = 0; camroller_case_number(self, i, texts, sizeof unit, &value, &error) == 0; i++) {
       if (strcmp(name, "roller.mass_kg") == 0) CHECK(value > 0.0 && value < 0.5 && strcmp(unit, "kg") == 0);

@@ -14,7 +14,7 @@ import os
 from ctypes import c_double, create_string_buffer
 
 from ._library import (LIBRARY, Cam, CamrollerError, ConvergenceError, DeckError, DomainError, FileError, Handle, Inputs, Outcome,
-                       ShaftOutcome, UsageError, byref, call, encoded, list_texts)
+                       ShaftOutcome, UsageError, byref, call, encoded, list_remarks, list_texts)
 
 __all__ = ["Cam", "CamrollerError", "Case", "ConvergenceError", "DeckError", "DomainError", "FileError", "Inputs", "Outcome",
            "Quantity", "Result", "Shaft", "ShaftOutcome", "Simulation", "UsageError", "run", "run_cases", "__version__"]
@@ -95,6 +95,11 @@ class Case(Handle):
         return Result._make("case_run", self._pointer)
 
     @property
+    def remarks(self):
+        """Remarks on the deck, a list of sentences: numbers that no engine has, keys without effect. A result has others."""
+        return list_remarks("case_remarks", self._pointer)
+
+    @property
     def numbers(self):
         """Keys that the deck gives with one number each, with their values in the unit of the key."""
         value = c_double()
@@ -146,9 +151,7 @@ class Result(Handle):
             call("result_scalar", self._pointer, name.encode(), byref(value))
             self.scalars[name] = value.value
             self.units[name], self.meanings[name] = unit, meaning
-        buffer = create_string_buffer(65536)
-        LIBRARY.camroller_result_remarks(self._pointer, buffer, len(buffer))
-        self.remarks = buffer.value.decode().splitlines()
+        self.remarks = list_remarks("result_remarks", self._pointer)
 
     def _series(self, name, rows):
         numbers = (c_double * rows)()

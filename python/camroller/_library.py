@@ -175,6 +175,7 @@ PLAIN = {
     "use_one_blas_thread": (c_int,),
     "case_free": (None, c_void_p),
     "case_sweep_size": (c_size_t, c_void_p),
+    "case_remarks": (None, c_void_p, c_char_p, c_size_t),
     "result_rows": (c_size_t, c_void_p),
     "result_remarks": (None, c_void_p, c_char_p, c_size_t),
     "result_free": (None, c_void_p),
@@ -233,6 +234,13 @@ def list_texts(name, count, *arguments, after=(), room=1024):
             return
         yield tuple(buffer.value.decode() for buffer in buffers)
         number += 1
+
+
+def list_remarks(name, pointer):
+    """Sentences of a call that gives remarks, one a line."""
+    buffer = ctypes.create_string_buffer(65536)
+    getattr(LIBRARY, f"camroller_{name}")(pointer, buffer, len(buffer))
+    return buffer.value.decode().splitlines()
 
 
 class Handle:

@@ -1,13 +1,15 @@
-!> What a deck holds beside its case, for C: numbers that it gives, cases of its sweep. `include/camroller.h` says what each call
-!> does.
+!> What a deck holds beside its case, for C: numbers that it gives, remarks on them, cases of its sweep. `include/camroller.h` says
+!> what each call does.
 !>
-!> In: a case. Out: names, units, meanings, values; one case of the sweep.
+!> In: a case. Out: names, units, meanings, values; sentences; one case of the sweep.
 module camroller_c_deck
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
    use camroller_error, only : error_t, raise, kind_internal, kind_usage, add_context
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case, drop_sweep
    use camroller_deck_document, only : given_numbers
+   use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_sweep, only : sweep_size, sweep_overrides, get_sweep_value, case_in_words
+   use camroller_mistakes, only : line_t
    use camroller_c_case, only : case_handle_t
    use camroller_c_structs, only : give_address
    use camroller_c_texts, only : give_text, give_error, refuse_null, has_place
@@ -62,6 +64,32 @@ contains
       end if
       call give_error(failure, error, code)
    end function case_number
+
+   !> Remarks on the deck of a case, one per line; empty where there are none.
+   subroutine case_remarks(handle, buffer, room) bind(C, name="camroller_case_remarks")
+      !> The case
+      type(c_ptr), value, intent(in) :: handle
+      !> Buffer to fill
+      type(c_ptr), value, intent(in) :: buffer
+      !> Its size
+      integer(c_size_t), value, intent(in) :: room
+
+      type(case_handle_t), pointer :: given
+      type(line_t), allocatable :: remarks(:)
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = ""
+      if (c_associated(handle)) then
+         call c_f_pointer(handle, given)
+         call list_deck_remarks(given%deck, remarks)
+         do i = 1, size(remarks)
+            if (i > 1) text = text//new_line("a")
+            text = text//remarks(i)%text
+         end do
+      end if
+      call give_text(text, buffer, room)
+   end subroutine case_remarks
 
    !> Copy of a case.
    function case_copy(handle, out, error) bind(C, name="camroller_case_copy") result(code)

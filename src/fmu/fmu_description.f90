@@ -40,6 +40,8 @@ contains
          & "canGetAndSetFMUstate", version == 3), "true")//attribute(merge("canSerializeFMUState", "canSerializeFMUstate", &
          & version == 3), "true")//"/>"//n
       call add_units(variables, text)
+      text = text//'  <LogCategories>'//n//'    <Category name="logStatusError"/>'//n//'    <Category name="logStatusWarning"/>'// &
+         & n//'  </LogCategories>'//n
       text = text//'  <DefaultExperiment startTime="0"'//attribute("stopTime", number_text(turn))//attribute("stepSize", &
          & number_text(turn/360.0_wp))//"/>"//n//"  <ModelVariables>"//n
       do i = 1, size(variables)

@@ -12,7 +12,7 @@ module test_deck_threads
 
    public :: collect_deck_threads
 
-   integer, parameter :: threads = 64, repeats = 100
+   integer, parameter :: threads = 64, repeats = 25
    character(len=*), parameter :: n = new_line("a")
 
    !> A text that may not be there

@@ -62,7 +62,7 @@ class Unit:
         self.unit = kind(guid=self.description.guid, unzipDirectory=str(folder), instanceName=name,
                          modelIdentifier=self.description.coSimulation.modelIdentifier)
         self.is_3 = self.description.fmiVersion == "3.0"
-        self.messages = []
+        self.messages, self.statuses = [], []
         self.time = 0.0
         if self.is_3:
             self.unit.instantiate(logMessage=self.hear_3)
@@ -74,10 +74,11 @@ class Unit:
             self.unit.instantiate(callbacks=functions)
 
     def hear_2(self, environment, name, status, category, message):
-        self.messages.append(message.decode())
+        self.hear_3(environment, status, category, message)
 
     def hear_3(self, environment, status, category, message):
         self.messages.append(message.decode())
+        self.statuses.append((status, category.decode()))
 
     def set(self, name, value):
         numbers = [self.numbers[name]]
@@ -243,6 +244,20 @@ def test_a_flexible_train_takes_its_supply_pressure_from_an_input(write, package
     for name in ("mean_torque_drive", "cam[1].chamber_pressure", "cam[1].lift_error"):
         assert unit.get(name) == other.get(name) != 0.0
     for one in (unit, other):
+        one.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_remarks_on_the_deck_are_warnings(write, tmp_path, version):
+    unit = Unit(write(version), tmp_path / "unit")
+    unit.start()
+    assert unit.messages == []
+    odd = Unit(write(version), tmp_path / "unit", "odd")
+    odd.start(**{"roller.mass_kg": 5.0})
+    assert len(odd.messages) == 1 and "roller.mass_kg" in odd.messages[0] and odd.statuses == [(1, "logStatusWarning")]
+    odd.drive(1)
+    assert {category.name for category in odd.description.logCategories} == {"logStatusError", "logStatusWarning"}
+    for one in (unit, odd):
         one.end()
 
 
