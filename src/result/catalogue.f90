@@ -11,8 +11,8 @@ module camroller_catalogue
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
    use camroller_flexible_parts, only : damper_count, damper_meanings, damper_series, dampers_without_adjuster
-   use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
-      & scope_engine, scope_length, take_quantities
+   use camroller_result, only : quantity_t, quantity_list_t, append_numbered, append_quantity, lobe_scope, scope_camshaft, &
+      & scope_case, scope_engine, scope_length, take_quantities
    use camroller_axial_table, only : axial_state_t
    use camroller_part_series, only : add_asperities, add_axial, add_axial_film, add_bearings, add_heat, add_pin, &
       & add_surfaces, bearing_count, least_force
@@ -344,8 +344,7 @@ contains
       end do
       if (.not. allocated(case%spring_surge)) return
       do n = 1, case%spring_surge%modes
-         call add(list, "spring_mode_"//integer_text(n), "m", "amplitude of the spring's mode "//integer_text(n), "spring_surge", &
-            & train%modes(n))
+         call append_numbered(list, "spring_mode_", n, "", "m", "amplitude of the spring's mode", "spring_surge", train%modes(n))
       end do
    end subroutine add_flexible
 
@@ -372,10 +371,10 @@ contains
       end do
       call add_camshaft(list, has, all_of)
       do k = 1, merge(0, size(torques, 2), size(torques, 2) == 1)
-         call add(list, camshaft_prefix//integer_text(k)//"_torque_friction", "N m", "torque for all losses of camshaft "// &
-            & integer_text(k), "torque", sum(torques(:, k), mask=is_loss))
-         call add(list, camshaft_prefix//integer_text(k)//"_torque_drive", "N m", "torque that drives camshaft "// &
-            & integer_text(k), "torque", sum(torques(:, k), mask=is_torque))
+         call append_numbered(list, camshaft_prefix, k, "_torque_friction", "N m", "torque for all losses of camshaft", "torque", &
+            & sum(torques(:, k), mask=is_loss))
+         call append_numbered(list, camshaft_prefix, k, "_torque_drive", "N m", "torque that drives camshaft", "torque", &
+            & sum(torques(:, k), mask=is_torque))
       end do
       if (bearing_count(case) > 0) call add_bearings(list, case, bearings)
    end subroutine add_camshafts

@@ -331,9 +331,7 @@ contains
 
       character(len=:), allocatable :: name, words, scope
 
-      name = ""
-      words = ""
-      scope = ""
+      ! Words are made only where names are wanted: rows of values are many
       if (allocated(list%items)) then
          scope = "bearing "//integer_text(bearing)
          name = "bearing_"//integer_text(bearing)//"_"
@@ -383,7 +381,11 @@ contains
          !> Value [unit of the series]
          real(wp), intent(in) :: value
 
-         call add(list, name//quantity, unit, meaning//words, source, value, scope)
+         if (allocated(list%items)) then
+            call add(list, name//quantity, unit, meaning//words, source, value, scope)
+         else
+            call add(list, "", "", "", "", value)
+         end if
       end subroutine append
 
    end subroutine add_bearing

@@ -12,8 +12,8 @@ module camroller_result
    implicit none
    private
 
-   public :: quantity_t, quantity_list_t, append_quantity, take_quantities, result_t, get_series, get_summary, find_quantity, &
-      & check_numbers, lobe_scope
+   public :: quantity_t, quantity_list_t, append_numbered, append_quantity, take_quantities, result_t, get_series, get_summary, &
+      & find_quantity, check_numbers, lobe_scope
    public :: scope_length, scope_camshaft, scope_engine, scope_case
 
    !> Length of a scope
@@ -120,6 +120,28 @@ contains
          if (present(least)) item%least = least
       end associate
    end subroutine append_quantity
+
+   !> Append a quantity with a number in its name, which also ends its meaning. Words are made only where names are wanted: rows of
+   !> values are many.
+   pure subroutine append_numbered(list, before, number, after, unit, description, source, value)
+      !> The list, as for `append_quantity`
+      type(quantity_list_t), intent(inout) :: list
+      !> Name before the number and after it
+      character(len=*), intent(in) :: before, after
+      !> The number
+      integer, intent(in) :: number
+      !> Unit, meaning without the number, part of the model
+      character(len=*), intent(in) :: unit, description, source
+      !> Value [unit of the quantity]
+      real(wp), intent(in) :: value
+
+      if (allocated(list%items)) then
+         call append_quantity(list, before//integer_text(number)//after, unit, description//" "//integer_text(number), source, &
+            & value)
+      else
+         call append_quantity(list, "", "", "", "", value)
+      end if
+   end subroutine append_numbered
 
    !> Move quantities to other places, without copies of their texts.
    pure subroutine move_quantities(from, to)
