@@ -41,7 +41,7 @@ CURVES = {
     "rolling": Curve("rolling friction", "friction_rolling", "N", whole_cycle=True),
     "slip": Curve("slip ratio", "slip_ratio", "%", whole_cycle=True, scale="log"),
     "axial_pressure": Curve("largest pressure along the roller", "axial_pressure_max", "GPa"),
-    "edge_stress": Curve("pressure at the end over that of the mean load", "edge_stress_factor", "1", touching=True, lines=(1.0,)),
+    "edge_pressure": Curve("pressure at the end of the roller", "edge_pressure", "GPa"),
     "subsurface_stress": Curve("largest shear stress below the surface", "subsurface_shear_stress", "MPa"),
     "sliding_distance": Curve("sliding distance of a place on the cam", "sliding_distance", "um", touching=True),
     "wear_depth": Curve("depth worn away from the cam", "cam_wear_depth", "nm", whole_cycle=True),

@@ -55,7 +55,7 @@ def made_up_series(angle, speed, oil):
               "asperity_friction_share": share, "friction_contact": friction, "torque_geometric": geometric,
               "torque_friction": total, "torque_drive": geometric + total,
               "load_error": 20 * np.sin(x * speed / 10), "lift_error": -5e-8 * load,
-              "axial_pressure_max": 2.5e7 * np.sqrt(load), "edge_stress_factor": 0.8 + 1e-4 * load,
+              "axial_pressure_max": 2.5e7 * np.sqrt(load), "edge_pressure": 2e7 * np.sqrt(load),
               "cam_wear_depth": 1e-12 * load, "cam_film_thickness": 1e-10 * load, "boundary_coefficient": 0.1 + 1e-5 * load}
     for number in range(1, SLICES + 1):  # more load at the last slice than at the first
         series[f"line_load_{number}"] = load / 0.0137 * (1 + 0.2 * (2 * number - 1 - SLICES) / SLICES)
@@ -79,7 +79,7 @@ SERIES_UNITS = {"valve_lift": "m", "valve_velocity": "m/s", "film_ratio": "1", "
                 "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1", "sliding_speed": "m/s", "cam_surface_speed": "m/s", "hertz_half_width": "m",
                 "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
                 "asperity_friction_share": "1", "friction_contact": "N", "load_error": "N", "lift_error": "m", "axial_pressure_max": "Pa",
-                "edge_stress_factor": "1", "cam_wear_depth": "m", "cam_film_thickness": "m", "boundary_coefficient": "1",
+                "edge_pressure": "Pa", "cam_wear_depth": "m", "cam_film_thickness": "m", "boundary_coefficient": "1",
                 **{f"line_load_{number}": "N m-1" for number in range(1, SLICES + 1)}}
 
 

@@ -285,9 +285,9 @@ contains
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       if (statistics%edge_factor > 0.0_wp) call add_remark(remarks, cut_off_contact, "the end of the roller cuts the contact "// &
-         & "off: its pressure is largest there, up to "//number_text(statistics%edge_factor, 3)//" times that of the same load "// &
-         & "all along the roller, at "//cam_angle_text(statistics%edge_angle, 1)//"; a sharp edge has more in a strip "// &
-         & "narrower than a slice", statistics%edge_factor)
+         & "off: its pressure is largest there, up to "//number_text(1.0e-9_wp*statistics%edge_pressure, 3)//" GPa at "// &
+         & cam_angle_text(statistics%edge_angle, 1)//", "//number_text(statistics%edge_factor, 3)//" times that of the same "// &
+         & "load all along the roller; a sharp edge has more in a strip narrower than a slice", statistics%edge_factor)
       if (statistics%one_end_share > 0.0_wp) call add_remark(remarks, unloaded_end, "tilt takes all load from one end of the "// &
          & "roller for "//number_text(100.0_wp*statistics%one_end_share, 3)//" % of the cycle", &
          & 100.0_wp*statistics%one_end_share)

@@ -19,6 +19,7 @@ module camroller_follower_samples
    use camroller_heat, only : hot_oil_range, is_inlet_in_range
    use camroller_axial_table, only : effective_lengths, slice_width
    use camroller_hertz, only : peak_pressure
+   use camroller_part_series, only : largest_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
    use camroller_traction, only : rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_resistance, line_lengths_t, &
@@ -43,9 +44,9 @@ module camroller_follower_samples
       real(wp) :: good_rise = -1.0_wp
       !> Fraction of the cycle with a larger one [-]; the largest [K], and its cam angle from full lift [rad]
       real(wp) :: hot_share = 0.0_wp, hot_rise = 0.0_wp, hot_angle = 0.0_wp
-      !> Largest pressure at an end of the roller where there is none larger, over that of the same load all along it [-], and its
-      !> cam angle from full lift [rad]
-      real(wp) :: edge_factor = 0.0_wp, edge_angle = 0.0_wp
+      !> Largest pressure at an end of the roller where there is none larger [Pa], over that of the same load all along it [-], and
+      !> its cam angle from full lift [rad]
+      real(wp) :: edge_pressure = 0.0_wp, edge_factor = 0.0_wp, edge_angle = 0.0_wp
       !> Fraction of the cycle in which one end of the roller alone carries load [-]
       real(wp) :: one_end_share = 0.0_wp
       !> Fraction of the cycle with more than `rolling_excess_allowed` of the rolling resistance of a law for all contacts [-]; the
@@ -154,7 +155,7 @@ contains
                & /model%modulus)) shares%inlet_share = shares%inlet_share + weight
             if (state%contact%film_rise > 0.0_wp) call note_hot_film(shares, model, state%contact%film_rise, angle, weight)
          end if
-         if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, state, angle, weight)
+         if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, model, state, angle, weight)
          if (model%rolling_law == rolling_goksem_hargreaves .and. state%contact%is_touching) call note_rolling(shares, model, &
             & state, groups, angle, weight)
          if (state%contact%is_touching .and. .not. takes_whole_load(model%film_law)) then
@@ -236,10 +237,12 @@ contains
    end subroutine note_rolling
 
    !> Note what the ends of the roller carry.
-   pure subroutine note_ends(shares, state, angle, weight)
+   pure subroutine note_ends(shares, model, state, angle, weight)
       !> The fractions
       class(shares_t), intent(inout) :: shares
-      !> State of the follower, in contact, with the load along its roller
+      !> The model of the lobe, with the load along its roller
+      type(model_t), intent(in) :: model
+      !> State of the follower, in contact
       type(state_t), intent(in) :: state
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -248,11 +251,16 @@ contains
 
       ! Rounding of loads [-]
       real(wp), parameter :: same = 1.0e-6_wp
+      real(wp) :: pressure ! [Pa]
 
       associate (along => state%along)
-         if (maxval(along%ends) >= along%peak .and. sqrt(along%peak) > max(shares%edge_factor, 1.0_wp + same)) then
-            shares%edge_factor = sqrt(along%peak)
-            shares%edge_angle = angle
+         if (maxval(along%ends) >= along%peak .and. along%peak > 1.0_wp + same) then
+            pressure = largest_pressure(model, state)
+            if (pressure > shares%edge_pressure) then
+               shares%edge_pressure = pressure
+               shares%edge_factor = sqrt(along%peak)
+               shares%edge_angle = angle
+            end if
          end if
          if (maxval(along%ends) > 0.0_wp .and. minval(along%ends) <= 0.0_wp) shares%one_end_share = shares%one_end_share &
             & + weight

@@ -25,7 +25,7 @@ module camroller_part_series
    private
 
    public :: add_asperities, add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
-      & bearing_series_count, least_force, load_part
+      & bearing_series_count, largest_pressure, least_force, load_part
 
    !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less counts as none, of asperities and of
    !> friction in joints
@@ -226,8 +226,8 @@ contains
       !> What matters of the load along the roller
       type(axial_state_t), intent(in) :: along
 
-      ! Loads per length, in the mean [N/m] and of the slices over that [-]; largest pressure [Pa]
-      real(wp) :: mean, pressure
+      ! Loads per length, in the mean [N/m] and of the slices over that [-]; largest pressure, that at the ends [Pa]
+      real(wp) :: mean, pressure, edge_pressure
       real(wp), allocatable :: loads(:)
       character(len=:), allocatable :: name, words
       integer :: i
@@ -235,9 +235,11 @@ contains
       allocate (loads(case%roller_profile%slices), source=0.0_wp)
       mean = 0.0_wp
       pressure = 0.0_wp
+      edge_pressure = 0.0_wp
       if (allocated(model%axial) .and. state%contact%is_touching) then
          mean = state%contact%load/model%contact_width
          pressure = largest_pressure(model, state)
+         edge_pressure = peak_pressure(maxval(along%ends)*mean, state%position%equivalent_radius, 1.0_wp, model%modulus)
          if (case%roller_profile%slice_series) call slice_loads(model%axial, state%contact%load, &
             & state%position%equivalent_radius, loads)
       end if
@@ -246,8 +248,7 @@ contains
       call add(list, "axial_pressure_max", "Pa", "largest pressure along the roller, dry contact", "roller_profile", pressure)
       call add(list, "axial_pressure_place", "m", "where along the roller the largest pressure is, from its middle", &
          & "roller_profile", along%place, least=case%mechanism%contact_width)
-      call add(list, "edge_stress_factor", "1", "pressure at the end with the larger one relative to that of the same load all "// &
-         & "along the roller", "roller_profile", sqrt(maxval(along%ends)))
+      call add(list, "edge_pressure", "Pa", "pressure at the end with the larger one, dry contact", "roller_profile", edge_pressure)
       call add(list, "line_load_negative_end", "N m-1", "load per length at the end at negative places", "roller_profile", &
          & mean*along%ends(1))
       call add(list, "line_load_positive_end", "N m-1", "load per length at the end at positive places", "roller_profile", &

@@ -148,7 +148,7 @@ contains
       ! Error of a mean over the tolerance: 0.2 at most for 22 such radii; without panels that end where the ends touch more than
       ! one half for 11 of them, and up to 4 [-]
       real(wp), parameter :: allowed = 0.5_wp, tolerance = 1.0e-6_wp, close = 1.0e-9_wp
-      character(len=*), parameter :: names(3) = [character(len=27) :: "mean_edge_stress_factor", "mean_line_load_positive_end", &
+      character(len=*), parameter :: names(3) = [character(len=27) :: "mean_edge_pressure", "mean_line_load_positive_end", &
          & "mean_line_load_negative_end"]
       type(case_t) :: case
       type(result_t) :: loose, tight
