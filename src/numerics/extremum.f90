@@ -157,12 +157,13 @@ contains
       parts = search%point(2:3) - search%point(1:2)
       rises = search%value([1, 3]) - search%value(2)
       search%left = maxval(rises)
-      search%is_wanted = search%steps < search%limit .and. maxval(rises) > search%tolerance &
-         & .and. minval(parts) > 16.0_wp*spacing(search%point(2))
+      search%is_wanted = .false.
       if (.not. minval(parts) > 0.0_wp) return
       slopes = rises/parts
       ! A curve bent to one side is nowhere below the lines through its middle point, continued to the other side
       search%left = max(slopes(1)*parts(2), slopes(2)*parts(1))
+      search%is_wanted = search%steps < search%limit .and. search%left > search%tolerance &
+         & .and. minval(parts) > 16.0_wp*spacing(search%point(2))
       if (.not. search%is_wanted) return
       shift = 0.5_wp*(slopes(1)*parts(2) - slopes(2)*parts(1))/sum(slopes)
       gain = shift**2*sum(slopes)/sum(parts)

@@ -16,6 +16,7 @@ contains
       testsuite = [ &
          new_unittest("one value finds the lowest point of a parabola", test_parabola), &
          new_unittest("a smooth function is at its lowest within the tolerance after a few values", test_smooth), &
+         new_unittest("what a wide part of a bracket may hide is looked for, however little its ends rise", test_uneven), &
          new_unittest("a kink is approached", test_kink), &
          new_unittest("of 1500 kinks none is missed by more than the tolerance or what is said to be left", test_kinks), &
          new_unittest("without a lowest point in the middle nothing is wanted", test_none), &
@@ -69,6 +70,19 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_smooth
+
+   !> Ends that rise by 0.01 and by 0.0002, and a lowest value 0.25 below the middle one.
+   subroutine test_uneven(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(extremum_t) :: search
+      real(wp), parameter :: lowest = 0.4999_wp, points(3) = [-0.01_wp, 0.0_wp, 1.0_wp], tolerance = 0.02_wp
+
+      call start_extremum(search, points, (points - lowest)**2, tolerance)
+      do while (search%is_wanted)
+         call narrow_extremum(search, (search%trial - lowest)**2)
+      end do
+      call check(error, search%value(2) <= tolerance)
+   end subroutine test_uneven
 
    subroutine test_kink(error)
       type(error_type), allocatable, intent(out) :: error
