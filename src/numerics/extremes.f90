@@ -237,7 +237,7 @@ contains
 
    !> Begin the search for the smallest or largest value of a series. Each series is searched by itself, so that what else is
    !> sampled changes no bit of it.
-   pure subroutine start_search(samples, series, sense, tolerance, search, by_itself)
+   pure subroutine start_search(samples, series, sense, tolerance, search, by_itself, among)
       !> The rows
       type(samples_t), intent(inout) :: samples
       !> The series
@@ -250,9 +250,9 @@ contains
       type(search_t), intent(out) :: search
       !> Is the extreme itself what a gain is small against, where it is less than the extent?
       logical, intent(in), optional :: by_itself
+      !> Rows of the part of the turn that alone is searched, one of them at least; all where absent
+      logical, intent(in), optional :: among(:)
 
-      ! The other end of the extent [unit of the series]
-      real(wp) :: largest
       integer :: extreme
 
       if (samples%sorted < samples%count) call find_neighbours(samples)
@@ -262,14 +262,14 @@ contains
       search%coarse = max(least_worth, tolerance)
       associate (ends => samples%order(samples%ends(:, series)))
          extreme = ends(merge(1, 2, sense > 0))
-         search%value = sense*samples%values(series, extreme)
-         largest = sense*samples%values(series, ends(merge(2, 1, sense > 0)))
+         search%extent = samples%values(series, ends(2)) - samples%values(series, ends(1))
       end associate
-      search%extent = largest - search%value
+      if (present(among)) extreme = minloc(sense*samples%values(series, :samples%count), 1, among)
+      search%value = sense*samples%values(series, extreme)
       if (present(by_itself)) then
          if (by_itself) search%extent = min(search%extent, abs(search%value))
       end if
-      call list_rows(samples, extreme, search)
+      call list_rows(samples, extreme, search, among)
       call enter_row(samples, search)
    end subroutine start_search
 
@@ -293,18 +293,20 @@ contains
 
    !> Rows near which there may be an extreme: the extreme one, then those that may hide a value beyond it, the most promising
    !> first.
-   pure subroutine list_rows(samples, extreme, search)
+   pure subroutine list_rows(samples, extreme, search, among)
       !> The rows
       type(samples_t), intent(in) :: samples
       !> The extreme one
       integer, intent(in) :: extreme
       !> The search
       type(search_t), intent(inout) :: search
+      !> As of `start_search`
+      logical, intent(in), optional :: among(:)
 
       integer :: rows(samples%count)
       ! The lowest value that each of these rows may hide [unit of the series]
       real(wp) :: bounds(samples%count), bound
-      integer :: found, turn, place, best
+      integer :: found, turn, place, best, first
 
       search%bound = search%value
       search%point = samples%angle(extreme)
@@ -312,7 +314,7 @@ contains
       found = 0
       do turn = samples%before_turns(search%series) + 1, samples%before_turns(search%series + 1)
          associate (row => samples%order(samples%turns(turn)))
-            if (row == extreme .or. samples%is_kink(row)) cycle
+            if (row == extreme .or. .not. is_smooth(samples, row, among)) cycle
             bound = lowest_hidden(samples, search, row)
             if (bound >= search%value - search%worth*search%extent) then
                search%bound = min(search%bound, bound)
@@ -323,15 +325,30 @@ contains
             bounds(found) = bound
          end associate
       end do
-      search%row_count = min(found + 1, most_rows)
-      search%rows(1) = extreme
-      do place = 2, search%row_count
+      first = merge(1, 0, is_smooth(samples, extreme, among))
+      search%row_count = min(found + first, most_rows)
+      search%rows(:first) = extreme
+      do place = first + 1, search%row_count
          best = minloc(bounds(:found), 1)
          search%rows(place) = rows(best)
          bounds(best) = huge(1.0_wp)
       end do
       if (found > 0) search%bound = min(search%bound, minval(bounds(:found)))
    end subroutine list_rows
+
+   !> May series be searched near a row? Not where their slopes jump, nor where the part of the turn that is searched ends.
+   pure function is_smooth(samples, row, among)
+      !> The rows; their neighbours are known
+      type(samples_t), intent(in) :: samples
+      !> The row
+      integer, intent(in) :: row
+      !> As of `start_search`
+      logical, intent(in), optional :: among(:)
+      logical :: is_smooth
+
+      is_smooth = .not. samples%is_kink(row)
+      if (present(among)) is_smooth = is_smooth .and. among(row) .and. all(among(samples%beside(:, row)))
+   end function is_smooth
 
    !> Lowest value that there may be beside a row at which the series turns. A curve that is bent to one side is nowhere below the
    !> straight lines through the row and its neighbours, continued to the neighbour on the other side; beside a jump, below the line
@@ -427,7 +444,6 @@ contains
       do while (search%done < search%row_count)
          search%done = search%done + 1
          associate (row => search%rows(search%done))
-            if (samples%is_kink(row)) cycle
             call look_near(samples, search, row, x, values, jump, outer)
             if (max(-x(1), x(3)) > widest .or. jump == on_both_sides) cycle
             call start_extremum(search%now, samples%angle(row) + x, values, search%worth*search%extent, most_halvings, jump, &

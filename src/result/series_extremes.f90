@@ -79,11 +79,10 @@ contains
          if (allocated(error)) return
          call find_thickest_film(series, statistics)
          allocate (statistics%lowest(size(list)), statistics%highest(size(list)))
-         call search_lobe(solved, lobe, list, statistics, statistics%lowest, statistics%highest, error)
+         call search_lobe(solved, lobe, series, statistics, statistics%lowest, statistics%highest, error)
          if (allocated(error)) return
          call judge_extremes(list, statistics%lowest, statistics%highest, statistics)
       end associate
-      statistics%event_load = smallest_event_load(solved%models(lobe), series, statistics%rows)
    end subroutine find_lobe_extremes
 
    !> Smallest and largest value of every series: those of the followers as they were found, and those of the camshafts.
@@ -149,61 +148,113 @@ contains
       end do
    end subroutine add_stops
 
-   !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is
-   !> only linear between its points.
-   subroutine search_lobe(solved, lobe, list, statistics, lowest, highest, error)
+   !> Smallest and largest values of a lobe's follower, from its rows and between them.
+   subroutine search_lobe(solved, lobe, series, statistics, lowest, highest, error)
       !> The solved case
       type(solved_t), intent(in) :: solved
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
-      !> The series of the follower
-      type(quantity_t), intent(in) :: list(:)
-      !> Its statistics, with the rows; out: with the errors of the values
+      !> All series of the case: those of the first lobe's follower stand in the order of every lobe's
+      type(quantity_t), intent(in) :: series(:)
+      !> Its statistics, with the rows; out: with the errors of the values, and the smallest load of the event
       type(statistics_t), intent(inout) :: statistics
       !> The values [unit of the series]
       real(wp), intent(out) :: lowest(:), highest(:)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(search_t) :: search
       type(kept_states_t) :: kept
-      integer :: series, sense, place
+      integer :: i, load
+      real(wp) :: error_of_load ! [N]
 
+      allocate (kept%values(size(lowest), most_kept), kept%finer(size(lowest), most_kept))
       allocate (statistics%extreme_errors(2, size(lowest)))
-      statistics%extreme_errors = 0.0_wp
-      associate (cycle => solved%cycles(lobe))
-         do series = 1, size(lowest)
-            do sense = -1, 1, 2
-               call start_search(statistics%rows, series, sense, cycle%tolerance, search, &
-                  & sense > 0 .and. index(list(series)%name, "film_") > 0)
-               do while (search%is_wanted)
-                  call keep_state(kept, solved, lobe, statistics%curve, search%trial, size(lowest), place, error)
-                  if (allocated(error)) return
-                  call narrow_search(statistics%rows, search, kept%values(series, place))
-               end do
-               if (sense > 0) lowest(series) = search%value
-               if (sense < 0) highest(series) = -search%value
-               call keep_state(kept, solved, lobe, statistics%curve, search%point, size(lowest), place, error)
-               if (allocated(error)) return
-               associate (of_value => statistics%extreme_errors(merge(1, 2, sense > 0), series))
-                  if (allocated(cycle%flexible)) then
-                     ! What the search leaves is unknown: slopes jump where contacts part, which rows do not mark
-                     of_value = abs(kept%values(series, place) - kept%finer(series, place))*error_share
-                  else
-                     call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
-                        & kept%relief(place), search%point, series, sense, sense*search%value, search%is_exact, of_value)
-                     of_value = of_value + search%left
-                  end if
-                  ! What is constant has a range of rounding, which no error is to be compared with
-                  if (of_value <= rounding*abs(search%value)) of_value = 0.0_wp
-               end associate
-            end do
+      associate (errors => statistics%extreme_errors)
+         do i = 1, size(lowest)
+            call search_series(solved, lobe, series(i), i, -1, statistics, kept, highest(i), errors(2, i), error)
+            if (.not. allocated(error)) call search_series(solved, lobe, series(i), i, 1, statistics, kept, lowest(i), &
+               & errors(1, i), error)
+            if (allocated(error)) return
          end do
+         load = find_quantity(series, "contact_load")
+         call search_series(solved, lobe, series(load), load, 1, statistics, kept, statistics%event_load, error_of_load, error, &
+            & in_event(solved%models(lobe), series, statistics%rows))
+         ! It is a smallest load as well
+         errors(1, load) = max(errors(1, load), error_of_load)
       end associate
    end subroutine search_lobe
 
+   !> Smallest or largest value of one series of a lobe's follower, with its error.
+   subroutine search_series(solved, lobe, quantity, series, sense, statistics, kept, value, value_error, error, among)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> The series, of the first lobe
+      type(quantity_t), intent(in) :: quantity
+      !> Its number among those of the follower
+      integer, intent(in) :: series
+      !> 1 for the smallest value, -1 for the largest
+      integer, intent(in) :: sense
+      !> Statistics of the lobe, with the rows
+      type(statistics_t), intent(inout) :: statistics
+      !> The last states
+      type(kept_states_t), intent(inout) :: kept
+      !> The value, its error [unit of the series]
+      real(wp), intent(out) :: value, value_error
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+      !> Rows of the part of the turn that alone counts; all where absent
+      logical, intent(in), optional :: among(:)
+
+      type(search_t) :: search
+      integer :: place
+
+      associate (cycle => solved%cycles(lobe))
+         call start_search(statistics%rows, series, sense, cycle%tolerance, search, &
+            & sense > 0 .and. index(quantity%name, "film_") > 0, among)
+         do while (search%is_wanted)
+            call keep_state(kept, solved, lobe, statistics%curve, search%trial, place, error)
+            if (allocated(error)) return
+            call narrow_search(statistics%rows, search, kept%values(series, place))
+         end do
+         value = sense*search%value
+         call keep_state(kept, solved, lobe, statistics%curve, search%point, place, error)
+         if (allocated(error)) return
+         if (allocated(cycle%flexible)) then
+            ! What the search leaves is unknown: slopes jump where contacts part, which rows do not mark
+            value_error = abs(kept%values(series, place) - kept%finer(series, place))*error_share
+         else
+            call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
+               & kept%relief(place), search%point, series, sense, value, search%is_exact, present(among), value_error)
+            value_error = value_error + search%left
+         end if
+      end associate
+      ! What is constant has a range of rounding, which no error is to be compared with
+      if (value_error <= rounding*abs(value)) value_error = 0.0_wp
+   end subroutine search_series
+
+   !> Rows of the event, with the valve off its seat; all where it never leaves it.
+   pure function in_event(model, series, samples)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Series of the case
+      type(quantity_t), intent(in) :: series(:)
+      !> Rows of the lobe
+      type(samples_t), intent(in) :: samples
+      logical :: in_event(samples%count)
+
+      ! Part of the lift at the seat that counts as all of it at a stop [-]
+      real(wp), parameter :: nearly = 1.0_wp - 1.0e-9_wp
+
+      associate (lift => samples%values(find_quantity(series, "valve_lift"), :samples%count))
+         in_event = lift > 0.0_wp .and. lift >= nearly*model%train%seat_lift
+      end associate
+      if (.not. any(in_event)) in_event = .true.
+   end function in_event
+
    !> Find the state at a cam angle among the last ones, or solve it: many series have their extremes at the same angles.
-   subroutine keep_state(kept, solved, lobe, curve, angle, series, place, error)
+   subroutine keep_state(kept, solved, lobe, curve, angle, place, error)
       !> The states
       type(kept_states_t), intent(inout) :: kept
       !> The solved case
@@ -214,8 +265,6 @@ contains
       type(lobe_curve_t), intent(in) :: curve
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
-      !> Number of series of the follower
-      integer, intent(in) :: series
       !> Place of the state among those kept
       integer, intent(out) :: place
       !> Convergence error
@@ -223,7 +272,6 @@ contains
 
       type(state_t) :: state
 
-      if (.not. allocated(kept%values)) allocate (kept%values(series, most_kept), kept%finer(series, most_kept))
       do place = 1, min(kept%count, most_kept)
          if (.not. abs(kept%angles(place) - angle) > 0.0_wp) return
       end do
@@ -242,28 +290,5 @@ contains
       end associate
       if (.not. allocated(error)) call follower_values(solved%case, solved%models(lobe), state, kept%finer(:, place))
    end subroutine keep_state
-
-   !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.
-   pure function smallest_event_load(model, series, samples) result(load)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Series of the case
-      type(quantity_t), intent(in) :: series(:)
-      !> Rows of the lobe
-      type(samples_t), intent(in) :: samples
-      !> The load [N]
-      real(wp) :: load
-
-      ! Part of the lift at the seat that counts as all of it at a stop [-]
-      real(wp), parameter :: nearly = 1.0_wp - 1.0e-9_wp
-      logical :: in_event(samples%count)
-
-      associate (lift => samples%values(find_quantity(series, "valve_lift"), :samples%count), &
-         & loads => samples%values(find_quantity(series, "contact_load"), :samples%count))
-         in_event = lift > 0.0_wp .and. lift >= nearly*model%train%seat_lift
-         if (.not. any(in_event)) in_event = .true.
-         load = minval(loads, in_event)
-      end associate
-   end function smallest_event_load
 
 end module camroller_series_extremes

@@ -175,7 +175,8 @@ contains
 
    !> Error of a smallest or largest value: by how much the error of the sliding speed changes it where it is, or by how much a
    !> point would exceed it without that error.
-   subroutine error_of_extreme(errors, solved, lobe, state, values, relief, angle, series, sense, value, is_exact, error)
+   subroutine error_of_extreme(errors, solved, lobe, state, values, relief, angle, series, sense, value, is_exact, is_of_part, &
+      & error)
       !> The errors
       type(slip_errors_t), intent(in) :: errors
       !> The solved case
@@ -198,6 +199,8 @@ contains
       real(wp), intent(in) :: value
       !> Is it the value of a row that is exact, as that of a surface at rest?
       logical, intent(in) :: is_exact
+      !> Is it that of a part of the turn, which other points may exceed?
+      logical, intent(in) :: is_of_part
       !> Its error [unit of the series]
       real(wp), intent(out) :: error
 
@@ -207,8 +210,8 @@ contains
       real(wp) :: inside, slip_error, change
 
       error = 0.0_wp
-      if (sense > 0) error = max(0.0_wp, value - errors%lowest(series))
-      if (sense < 0) error = max(0.0_wp, errors%highest(series) - value)
+      if (sense > 0 .and. .not. is_of_part) error = max(0.0_wp, value - errors%lowest(series))
+      if (sense < 0 .and. .not. is_of_part) error = max(0.0_wp, errors%highest(series) - value)
       inside = solved%cycles(lobe)%start + modulo(angle - solved%cycles(lobe)%start, two_pi)
       if (abs(values(series) - value) <= rounding*abs(value) .and. .not. is_exact) then
          slip_error = error_at(errors, inside)

@@ -78,7 +78,8 @@ contains
          & "without films where contact is lost", "numerics", &
          & maxval(statistics%mean_error))
       call add(list, "estimated_error_of_extremes", "1", "estimate of the largest error of a smallest or "// &
-         & "largest value relative to the range of its series, of a torque to that of the friction torque where it is larger, "// &
+         & "largest value, of the smallest contact load of the event too, relative to the range of its series, of a torque "// &
+         & "to that of the friction torque where it is larger, "// &
          & "of the smallest film relative to itself; without films where contact is lost", "numerics", &
          & maxval(statistics%extreme_error))
       call add_counters(solved%cycles, list)

@@ -22,7 +22,8 @@ contains
          new_unittest("beside a jump extremes are looked for, and what is left is told, from one side", test_jump), &
          new_unittest("rows that share an angle but for rounding are no jump", test_twins), &
          new_unittest("of many summits those that are not looked near count as what may be left", test_many), &
-         new_unittest("rows beyond the room at first are kept", test_room) &
+         new_unittest("rows beyond the room at first are kept", test_room), &
+         new_unittest("in a part of the turn its own smallest value is found, and none is looked for outside", test_part) &
          ]
    end subroutine collect_extremes
 
@@ -310,6 +311,47 @@ contains
       end function comb
 
    end subroutine test_many
+
+   !> Two valleys, of which the part has the shallower one, or ends on the slope of the deeper one.
+   subroutine test_part(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(samples_t) :: samples
+      type(search_t) :: search
+      integer, parameter :: rows = 72
+      ! Ends of the part [rad]: the end of the second is half a step before its next row
+      real(wp), parameter :: ends(2, 2) = reshape([0.5_wp, 2.5_wp, 0.5_wp, two_pi*51.5_wp/rows], [2, 2])
+      real(wp) :: angles(rows)
+      integer :: i, part
+
+      angles = [(two_pi*(i - 1)/rows, i=1, rows)]
+      do part = 1, 2
+         call start_samples(samples, 1)
+         do i = 1, rows
+            call add_sample(samples, angles(i), [valleys(angles(i))], .false.)
+         end do
+         call start_search(samples, 1, 1, 0.0_wp, search, among=angles > ends(1, part) .and. angles < ends(2, part))
+         do while (search%is_wanted)
+            call check(error, search%trial > ends(1, part) .and. search%trial < ends(2, part), "a value outside is wanted")
+            if (allocated(error)) return
+            call narrow_search(samples, search, valleys(search%trial))
+         end do
+         ! A gain of 1e-7 of the extent of 3 is not worth a value
+         if (part == 1) call check(error, search%value, -1.0_wp, thr=3.0e-7_wp)
+         if (part == 2) call check(error, search%value, valleys(angles(52)), thr=0.0_wp)
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> Lowest at 1.63, where it is -1, and at 4.48, where it is -2.
+      pure function valleys(x) result(height)
+         real(wp), intent(in) :: x
+         real(wp) :: height
+
+         height = min(1.0_wp, 2.0_wp*(x - 1.63_wp)**2 - 1.0_wp, 3.0_wp*(x - 4.48_wp)**2 - 2.0_wp)
+      end function valleys
+
+   end subroutine test_part
 
    subroutine test_room(error)
       type(error_type), allocatable, intent(out) :: error

@@ -94,12 +94,10 @@ contains
                & //" is negative;"
          end associate
       end do
-      if (any(series_of(result, "film_thickness_min") > series_of(result, "film_thickness_central")*(1.0_wp + rounding))) then
-         trouble = trouble//" minimum film above central film;"
-      end if
-      if (any(series_of(result, "asperity_load") > maxval(series_of(result, "contact_load"))*(1.0_wp + rounding))) then
-         trouble = trouble//" asperities carry more than the load;"
-      end if
+      if (any(series_of(result, "film_thickness_min") > series_of(result, "film_thickness_central") &
+         & *(1.0_wp + rounding))) trouble = trouble//" minimum film above central film;"
+      if (any(series_of(result, "asperity_load") > maxval(series_of(result, "contact_load")) &
+         & *(1.0_wp + rounding))) trouble = trouble//" asperities carry more than the load;"
       do i = 1, size(result%series)
          ! Extremes of the camshafts' torques are those of the reported angles
          if (index(result%series(i)%name, "torque_") == 1 .or. result%series(i)%name == "energy_residual") cycle
@@ -261,9 +259,8 @@ contains
       if (.not. found <= allowed) trouble = " sliding speeds"//words_of_difference(found, allowed)
       ! Each rise or fall of the calmer curve may be longer or shorter by the difference at both of its ends; what goes beyond are
       ! rises and falls that it does not have
-      if (abs(variation(first) - variation(second)) > 2.0_wp*min(pieces(first), pieces(second))*scale*max(found, allowed)) then
-         trouble = trouble//" the sliding speed chatters;"
-      end if
+      if (abs(variation(first) - variation(second)) > 2.0_wp*min(pieces(first), pieces(second))*scale &
+         & *max(found, allowed)) trouble = trouble//" the sliding speed chatters;"
       call compare_means(one, other, promised_error(case, one, "estimated_error_of_means") + promised_error(case, other, &
          & "estimated_error_of_means"), allocated(case%dynamics), trouble)
       call compare_extremes(one, other, promised_error(case, one, "estimated_error_of_extremes") + promised_error(case, other, &
@@ -390,6 +387,12 @@ contains
             end do
          end associate
       end do
+            k = index(name, "contact_load", back=.true.)
+            if (k == 0) cycle
+            difference = abs(scalar_of(one, name(:k - 1)//"min_event_contact_load") &
+               & - scalar_of(other, name(:k - 1)//"min_event_contact_load"))
+            if (difference > allowed*range + least) trouble = trouble//" smallest "//name//" of the event" &
+               & //words_of_difference(difference/range, allowed)
    end subroutine compare_extremes
 
    !> Largest range of what a damper of a lobe loses: dampers are one loss together, as in the program's own estimate.
@@ -462,11 +465,8 @@ contains
       integer :: place
 
       place = find_quantity(result%series, trim(name))
-      if (place == 0) then
-         values = 0.0_wp*result%angle
-      else
-         values = result%series_values(:, place)
-      end if
+      values = 0.0_wp*result%angle
+      if (place > 0) values = result%series_values(:, place)
    end function series_of
 
    !> A scalar; zero where the result does not have it.
