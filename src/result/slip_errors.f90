@@ -283,7 +283,10 @@ contains
 
    end subroutine error_of_extreme
 
-   !> Error of the trajectory at a cam angle: the larger of those at the points beside it.
+   !> Error of the trajectory at a cam angle: the largest of its panel, of both panels where the angle is between two.
+   !>
+   !> Where a disturbance decays within less than a step the error swings about zero once or twice within each step, and where the
+   !> sliding speed itself changes little it has its extremes at crests of the error, which may be between all points.
    pure function error_at(errors, angle) result(error)
       !> The errors
       type(slip_errors_t), intent(in) :: errors
@@ -292,7 +295,7 @@ contains
       !> The error [m/s]
       real(wp) :: error
 
-      integer :: left, right, middle
+      integer :: left, right, middle, first, last
 
       left = 1
       right = size(errors%angle)
@@ -304,8 +307,9 @@ contains
             right = middle
          end if
       end do
-      error = errors%error(left)
-      if (abs(errors%error(right)) > abs(error)) error = errors%error(right)
+      first = left - modulo(left - 1, panel_points)
+      last = right - modulo(right - 1, panel_points) + panel_points - 1
+      error = errors%error(first - 1 + maxloc(abs(errors%error(first:last)), 1))
    end function error_at
 
    !> What is sampled at a point less what would be without the error of the sliding speed.

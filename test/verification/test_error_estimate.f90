@@ -10,6 +10,7 @@ module test_error_estimate
    use camroller_run, only : run_case
    use camroller_panels, only : gauss_points, panel_places, panel_points
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
+   use camroller_slip_errors, only : error_at, slip_errors_t
    use camroller_study_trial, only : trial_t, errors_against, largest_deviation, run_trial
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, source_case, skewed_case, set_point, point_speeds, point_viscosities
@@ -35,6 +36,7 @@ contains
          new_unittest("a defect that vanishes at the Gauss nodes is seen between them", test_between), &
          new_unittest("a defect at the ends of an interval enters the estimate", test_ends), &
          new_unittest("over two intervals as one, the defect of each counts", test_joined), &
+         new_unittest("the error at an angle is that of the crest of its panel", test_crest), &
          new_unittest("a cycle without decay has no finite error", test_no_decay), &
          new_unittest("where disturbances grow, the estimate grows with them", test_growth), &
          new_unittest("the estimate bounds the error against the reference for every kind of method", test_methods), &
@@ -43,6 +45,21 @@ contains
          new_unittest("a tolerance too loose for its error gives a remark", test_far_beyond) &
          ]
    end subroutine collect_error_estimate
+
+   !> Two panels, of which the second has a crest; the angles are before it, behind it, and between both panels.
+   subroutine test_crest(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(slip_errors_t) :: errors
+      real(wp), parameter :: crest = -4.0e-3_wp, usual = 1.0e-3_wp ! [m/s]
+
+      errors%angle = [panel_places, 1.0_wp + panel_places]
+      errors%error = spread(usual, 1, 2*panel_points)
+      errors%error(panel_points + 3) = crest
+      call check(error, error_at(errors, 1.9_wp), crest, thr=0.0_wp)
+      if (.not. allocated(error)) call check(error, error_at(errors, 1.1_wp), crest, thr=0.0_wp)
+      if (.not. allocated(error)) call check(error, error_at(errors, 1.0_wp), crest, thr=0.0_wp)
+      if (.not. allocated(error)) call check(error, error_at(errors, 0.9_wp), usual, thr=0.0_wp)
+   end subroutine test_crest
 
    !> Carry a defect over equal intervals.
    pure subroutine carry(defects, rate, length, intervals, estimate)
