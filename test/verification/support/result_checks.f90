@@ -254,7 +254,9 @@ contains
       allowed = promised_error(case, one, "estimated_error") + promised_error(case, other, "estimated_error")
       first = series_of(one, "sliding_speed")
       second = series_of(other, "sliding_speed")
-      scale = max(maxval(abs(first)), maxval(abs(second)), least_slip*maxval(abs(series_of(one, "rolling_speed"))))
+      ! Between the reported angles there may be more
+      scale = max(scalar_of(one, "max_sliding_speed"), -scalar_of(one, "min_sliding_speed"), maxval(abs(second)), &
+         & least_slip*maxval(abs(series_of(one, "rolling_speed"))))
       found = maxval(abs(first - second))/scale
       if (.not. found <= allowed) trouble = " sliding speeds"//words_of_difference(found, allowed)
       ! Each rise or fall of the calmer curve may be longer or shorter by the difference at both of its ends; what goes beyond are
@@ -385,14 +387,14 @@ contains
                      & tiny(1.0_wp)), allowed)
                end if
             end do
-         end associate
-      end do
             k = index(name, "contact_load", back=.true.)
             if (k == 0) cycle
             difference = abs(scalar_of(one, name(:k - 1)//"min_event_contact_load") &
                & - scalar_of(other, name(:k - 1)//"min_event_contact_load"))
             if (difference > allowed*range + least) trouble = trouble//" smallest "//name//" of the event" &
                & //words_of_difference(difference/range, allowed)
+         end associate
+      end do
    end subroutine compare_extremes
 
    !> Largest range of what a damper of a lobe loses: dampers are one loss together, as in the program's own estimate.
