@@ -2,7 +2,7 @@
 !>
 !> In: the solved case, rows of its series, margins. Out: `extremes_t`.
 module camroller_series_extremes
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, two_pi
    use camroller_camshaft_statistics, only : search_camshaft
    use camroller_catalogue, only : follower_values, lobe_columns, camshaft_columns
    use camroller_cycle, only : state_at
@@ -16,8 +16,10 @@ module camroller_series_extremes
    use camroller_means, only : find_thickest_film, statistics_t
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t, find_quantity
+   use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
    use camroller_shaft, only : solved_t
    use camroller_slip_errors, only : error_of_extreme, relief_t
+   use camroller_sorting, only : find_order
    use camroller_state, only : state_t
    implicit none
    private
@@ -76,6 +78,8 @@ contains
       columns = lobe_columns(solved%case, lobe)
       associate (list => series(columns(1):columns(2)))
          call add_stops(solved, lobe, margins, statistics%curve, statistics%rows, error)
+         if (allocated(error)) return
+         if (allocated(solved%cycles(lobe)%flexible)) call add_event_ends(solved, lobe, series, statistics, error)
          if (allocated(error)) return
          call find_thickest_film(series, statistics)
          allocate (statistics%lowest(size(list)), statistics%highest(size(list)))
@@ -147,6 +151,54 @@ contains
          call add_sample(samples, angles(i), values, i < size(angles) .and. .not. allocated(solved%cycles(lobe)%flexible))
       end do
    end subroutine add_stops
+
+   !> Rows of a flexible train at the ends of its event, which are no stops: the load of the event may be smallest there.
+   subroutine add_event_ends(solved, lobe, series, statistics, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> All series of the case
+      type(quantity_t), intent(in) :: series(:)
+      !> Statistics of the lobe; rows are added
+      type(statistics_t), intent(inout) :: statistics
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bracket_t) :: bracket
+      type(state_t) :: state
+      integer :: order(statistics%rows%count), place, lift, hint
+      logical :: inside(statistics%rows%count)
+      ! Cam angles of a row and the next one from full lift [rad]; lifts of all rows above that at the seat [m]; a row [unit of the
+      ! series]
+      real(wp) :: angles(2), excess(statistics%rows%count), values(size(statistics%rows%values, 1))
+
+      hint = 1
+      lift = find_quantity(series, "valve_lift")
+      associate (rows => statistics%rows, turn => solved%cycles(lobe), model => solved%models(lobe), n => size(order))
+         inside = in_event(model, series, rows)
+         excess = rows%values(lift, :n) - model%train%seat_lift
+         call find_order(rows%angle(:n), order)
+         do place = 1, n
+            associate (pair => order([place, 1 + modulo(place, n)]))
+               if (inside(pair(1)) .eqv. inside(pair(2))) cycle
+               angles = rows%angle(pair)
+               if (place == n) angles(2) = angles(2) + two_pi
+               call start_bracket(bracket, angles(1), angles(2), excess(pair(1)), excess(pair(2)), 0.0_wp)
+            end associate
+            do while (bracket%status == root_wanted)
+               call state_at(turn, model, bracket%trial, hint, state, error, contact_near(statistics%curve, bracket%trial))
+               if (allocated(error)) return
+               call narrow_bracket(bracket, state%position%lift - model%train%seat_lift)
+            end do
+            if (bracket%status /= root_found) cycle
+            call state_at(turn, model, bracket%trial, hint, state, error, contact_near(statistics%curve, bracket%trial))
+            if (allocated(error)) return
+            call follower_values(solved%case, model, state, values)
+            call add_sample(rows, bracket%trial, values, .false.)
+         end do
+      end associate
+   end subroutine add_event_ends
 
    !> Smallest and largest values of a lobe's follower, from its rows and between them.
    subroutine search_lobe(solved, lobe, series, statistics, lowest, highest, error)
