@@ -13,6 +13,7 @@ module camroller_run_command
    use camroller_console, only : console_t, seconds_since, start_console, tell_deck_remarks, add_number_remarks
    use camroller_deck, only : deck_t, drop_sweep, read_deck, make_sweep_case
    use camroller_deck_files, only : list_deck_files
+   use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_sweep, only : case_in_words, sweep_size
    use camroller_mistakes, only : line_t
    use camroller_new_file, only : check_place
@@ -224,7 +225,7 @@ contains
             if (.not. allocated(error)) call print_lines(table, error)
          end if
          if (.not. allocated(error)) call print_lines(words, error)
-         call tell_remarks(report%tally%remarks, deck)
+         call tell_remarks(report%tally%remarks, deck, config%command /= "merge")
       case (sweep_was_complete)
          call print_lines(words//" is there with all cases", error)
       case (sweep_shard_done)
@@ -234,19 +235,25 @@ contains
       if (.not. allocated(error) .and. allocated(failure)) call move_alloc(failure, error)
    end subroutine conclude
 
-   !> Show remarks: all of a case that is alone; of several cases the worst of each kind, with the number of cases.
-   subroutine tell_remarks(remarks, deck)
+   !> Show remarks: of a case that is alone all but those that its deck has had before; of several cases the worst of each kind,
+   !> with the number of cases.
+   subroutine tell_remarks(remarks, deck, has_told_deck)
       !> The remarks
       type(remarks_t), intent(in) :: remarks
       !> The deck
       type(deck_t), intent(in) :: deck
+      !> Has the command shown the remarks on the deck?
+      logical, intent(in) :: has_told_deck
 
+      type(line_t), allocatable :: earlier(:)
       character(len=:), allocatable :: words
-      integer :: i
+      integer :: i, k
 
       if (.not. allocated(remarks%groups)) return
+      call list_deck_remarks(deck, earlier)
       do i = 1, size(remarks%groups)
          associate (group => remarks%groups(i), cases => sweep_size(deck%sweep))
+            if (has_told_deck .and. cases == 1 .and. any([(earlier(k)%text == group%worst%text, k=1, size(earlier))])) cycle
             words = "remark"
             if (cases > 1) words = "remark on "//integer_text(group%cases)//" of "//integer_text(cases)//" cases, the worst is "// &
                & case_in_words(deck%sweep, group%case_number)
