@@ -113,7 +113,7 @@ contains
       state(at_pressure) = model%flexible%adjuster%given%supply_pressure
    end subroutine rest_of_train
 
-   !> Integrate turns until they repeat themselves, or as many as are allowed.
+   !> Integrate turns until they repeat themselves, or as many as are allowed, or as many as take the steps allowed.
    subroutine find_periodic(cycle, turn, state, closure, max_cycles, error)
       !> The cycle
       type(flexible_cycle_t), intent(inout) :: cycle
@@ -164,11 +164,11 @@ contains
             cycle%period = 1
             return
          end if
-         ends(:, :2*longest_period - 1) = ends(:, 1:)
-         ends(:, 2*longest_period) = state/turn%scales
+         ends(:, :) = reshape([ends(:, 1:), state/turn%scales], shape(ends))
          plain = plain + 1
          if (distance >= 10.0_wp*closure) call find_period(ends, min(longest_period, (plain - 1)/2), closure, cycle)
          if (cycle%period > 0) return
+         if (cycle%counters%accepted + cycle%counters%rejected > turn%most_search) exit
          call jump_leak(leak, turn, residual, state, has_jumped)
          if (has_jumped) then
             cycle%history%kept = 0

@@ -24,8 +24,16 @@ module camroller_flexible_solution
 
    !> Turns that make statistics where there is no period
    integer, parameter :: statistical_turns = 40
+   !> Fewer of them, where their steps are so many that the search for a period was given up
+   integer, parameter :: least_statistics = 10
    !> Cycles that are allowed at least
    integer, parameter :: least_cycles = 40
+   !> Steps a cycle, on average over all that are allowed, after which the search for a period is given up, at the tolerance below
+   !> or a larger one: trains without a period take up to 2900, `decks/dynamics.nml` at 4500 rev/min, and 5000 to 15000 where
+   !> contacts part a hundred times in a turn
+   integer, parameter :: search_steps = 4000
+   !> That tolerance; exponent with which steps grow as it falls, for a method of order 5 [-]
+   real(wp), parameter :: usual_tolerance = 4.0e-7_wp, steps_exponent = 0.2_wp
    !> Steps of all turns together after which a train is given up: ten times as many as a usual train takes without a period, and a
    !> minute of work
    integer, parameter :: most_work = 2000000
@@ -55,8 +63,8 @@ module camroller_flexible_solution
       real(wp), allocatable :: mean(:), deviation(:), lowest(:), highest(:)
       !> How the turns for statistics change from one to the next
       type(trend_t) :: trend
-      !> Turns that were allowed for a period
-      integer :: max_cycles = 0
+      !> Was the search for a period given up before the turns allowed, since they take so many steps?
+      logical :: is_cut_short = .false.
       !> The last turn again, with a finer tolerance, and what its integration did not tell apart
       type(trajectory_t) :: finer
       type(resolution_t) :: finer_resolution
@@ -83,7 +91,7 @@ contains
       ! State [state]
       real(wp), allocatable :: state(:)
       character(len=name_length) :: method
-      integer :: i, count
+      integer :: max_cycles
 
       method = train_method(numerics)
       if (.not. has_error_control(numerics)) then
@@ -94,28 +102,49 @@ contains
       solution%cycle%tolerance = tolerance_ratio*numerics%tolerance
       call start_turns(turn, model, method, solution%cycle%tolerance, error)
       if (.not. allocated(error)) call rest_of_train(model, state, error)
-      solution%max_cycles = max(least_cycles, numerics%max_cycles)
+      max_cycles = max(least_cycles, numerics%max_cycles)
       turn%most_work = most_work
+      turn%most_search = int(min(real(most_work, wp), real(search_steps, wp)*max_cycles &
+         & *max(1.0_wp, usual_tolerance/solution%cycle%tolerance)**steps_exponent))
       if (.not. allocated(error)) call find_periodic(solution%cycle, turn, state, closure_ratio*solution%cycle%tolerance, &
-         & solution%max_cycles, error)
+         & max_cycles, error)
+      if (.not. allocated(error)) then
+         solution%is_cut_short = solution%cycle%period == 0 .and. solution%cycle%cycles < max_cycles
+         call take_turns(solution, turn, state, error)
+      end if
       call add_context(error, "integrating the flexible train")
-      if (allocated(error)) return
+      if (.not. allocated(error)) call take_measures(solution, model, error)
+      if (.not. allocated(error)) call estimate_error(solution, turn, error)
+   end subroutine solve_flexible
+
+   !> Turns of the period, or those for statistics: where the search for a period was given up, as many as it took, within limits.
+   subroutine take_turns(solution, turn, state, error)
+      !> The solution, with what the search has found
+      type(flexible_solution_t), intent(inout) :: solution
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> State at the end of the search; out: at the end of the turns [state]
+      real(wp), intent(inout) :: state(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i, count
+
       count = merge(solution%cycle%period, statistical_turns, solution%cycle%period > 0)
+      if (solution%is_cut_short) count = min(statistical_turns, max(least_statistics, solution%cycle%cycles))
       allocate (solution%turns(count))
       if (count == 1) then
          solution%turns(1) = solution%cycle%trajectory
-      else
-         do i = 1, count
-            call integrate_turn(turn, state, solution%turns(i), solution%cycle%counters, error)
-            call add_context(error, "integrating the flexible train")
-            if (allocated(error)) return
-         end do
-         solution%cycle%trajectory = solution%turns(count)
-         if (solution%cycle%period == 0) call note_trend(solution, turn%scales)
+         return
       end if
-      call take_measures(solution, model, error)
-      if (.not. allocated(error)) call estimate_error(solution, turn, error)
-   end subroutine solve_flexible
+      do i = 1, count
+         call integrate_turn(turn, state, solution%turns(i), solution%cycle%counters, error)
+         if (allocated(error)) return
+      end do
+      solution%cycle%trajectory = solution%turns(count)
+      ! Fewer turns may seem to have a trend by chance
+      if (solution%cycle%period == 0 .and. count == statistical_turns) call note_trend(solution, turn%scales)
+   end subroutine take_turns
 
    !> How the turns for statistics change from one to the next.
    subroutine note_trend(solution, scales)

@@ -58,6 +58,8 @@ module camroller_flexible_turn
       real(wp) :: least_sliding = 0.0_wp
       !> Steps of all turns together after which they are given up
       integer :: most_work = huge(1)
+      !> Steps of all turns together after which no period is looked for any more
+      integer :: most_search = huge(1)
    end type turn_t
 
 contains

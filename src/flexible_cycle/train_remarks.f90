@@ -12,6 +12,7 @@ module camroller_train_remarks
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text, number_text
+   use camroller_ode_problem, only : counters_t
    use camroller_remarks, only : add_remark, bouncing_valve, clashing_coils, long_period, lost_contact, missing_lift, &
       & no_period, open_pivot, open_valve, pressed_seat, remark_t, sinking_plunger, rising_plunger, stopped_plunger
    implicit none
@@ -169,15 +170,22 @@ contains
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       character(len=:), allocatable :: text
+      type(counters_t) :: counters
 
       if (solution%cycle%period == 1) return
+      counters = solution%cycle%counters
       if (solution%cycle%period > 1) then
          call add_remark(remarks, long_period, "the motion of the train repeats after "//integer_text(solution%cycle%period)// &
             & " cycles at "//speed//"; the summary covers all of them, the series "// &
             & "show the last", real(solution%cycle%period, wp))
       else
-         text = "the motion of the train did not become periodic within "//integer_text(solution%max_cycles)//" cycles at "// &
-            & speed//": the summary covers "//integer_text(size(solution%turns))//" further cycles, and the series show the "// &
+         text = "the motion of the train did not become periodic within "//integer_text(solution%cycle%cycles)//" cycles at "// &
+            & speed
+         if (solution%is_cut_short) text = text//", and no more are tried: in each cam and roller, or valve and seat, part "// &
+            & number_text(solution%mean(losses_of_contact) + solution%mean(bounces), 2)//" times, and a cycle takes "// &
+            & integer_text((counters%accepted + counters%rejected)/(solution%cycle%cycles + size(solution%turns)))// &
+            & " steps, where usual ones take some hundreds to 3000"
+         text = text//": the summary covers "//integer_text(size(solution%turns))//" further cycles, and the series show the "// &
             & "last of them as an example"
          if (solution%trend%approached > 0) then
             text = text//"; they still approach a period"

@@ -252,6 +252,10 @@ contains
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       if (statistics%error <= worth_a_warning) return
+      ! A motion without a period has a remark of its own, and no method that resolves it
+      if (allocated(cycle%flexible)) then
+         if (cycle%flexible%cycle%period == 0) return
+      end if
       if (cycle%is_quasi_static) then
          call add_remark(remarks, unresolved_slip, "the sliding speed is that of the quasi-static balance: the inertia of the "// &
             & "roller, which numerics.method 'quasi_static' leaves out, makes an estimated difference of "// &

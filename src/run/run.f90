@@ -3,9 +3,10 @@
 !> In: `case_t`. Out: `result_t`. No files, no printing, no state left behind.
 module camroller_run
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, add_context, kind_convergence, cause_unknown
-   use camroller_accuracy, only : is_checked, has_tolerance, far_beyond, first_numerics, most_refinements, refine_tolerance, &
-      & resolve_numerics, second_method, way_out
+   use camroller_error, only : error_t, add_context, kind_convergence, cause_unknown
+   use camroller_accuracy, only : is_checked, first_numerics, most_refinements, refine_tolerance, resolve_numerics, &
+      & second_method, way_out
+   use camroller_accuracy_remarks, only : judge
    use camroller_catalogue, only : list_series
    use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
@@ -15,12 +16,11 @@ module camroller_run
    use camroller_effect_report, only : add_choice
    use camroller_cam_check, only : check_geometry
    use camroller_cycle, only : cycle_t, integrate_cycle
-   use camroller_number_text, only : number_text, fixed_text
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_report, only : make_result, search_extremes, take_statistics
-   use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_extremes, missed_means, no_period
-   use camroller_result, only : quantity_t, result_t, get_summary
+   use camroller_result, only : quantity_t, result_t
+   use camroller_flexible_solution, only : train_method
    use camroller_running_in, only : aged_t, add_running_in, run_in
    implicit none
    private
@@ -147,8 +147,8 @@ contains
    !>
    !> Where the estimated error of the sliding speed, of a mean or of an extreme is above the accuracy asked for, the cycles are
    !> integrated again with a smaller tolerance; with a flexible train, whose turns are many, only where that of load and sliding
-   !> speed is. So they are with another method and another tolerance where they could not be. What a later try cannot do leaves the
-   !> result of an earlier one, with a remark; without any figure that is right there is no result.
+   !> speed is, and the motion has a period. So they are with another method and another tolerance where they could not be. What a
+   !> later try cannot do leaves the result of an earlier one, with a remark; without any figure that is right there is no result.
    subroutine run_listed(case, models, with_series, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -171,7 +171,11 @@ contains
 
       call list_series(case, series)
       numerics = first_numerics(case%numerics)
-      if (allocated(case%dynamics)) numerics = resolve_numerics(case%numerics)
+      if (allocated(case%dynamics)) then
+         numerics = resolve_numerics(case%numerics)
+         ! Else the way out by another method would be the same try again
+         numerics%method = train_method(numerics)
+      end if
       has_result = .false.
       has_way_out = .false.
       least = 0.0_wp
@@ -248,20 +252,6 @@ contains
       if (is_finer) numerics%tolerance = other
    end subroutine refine
 
-   !> Estimated errors of a result: of the sliding speed, of the means, of the extremes.
-   subroutine get_estimates(result, estimates, error)
-      !> The result
-      type(result_t), intent(in) :: result
-      !> Errors [-]
-      real(wp), intent(out) :: estimates(3)
-      !> Usage error where they are not in the summary
-      type(error_t), allocatable, intent(out) :: error
-
-      call get_summary(result, "estimated_error", estimates(1), error)
-      if (.not. allocated(error)) call get_summary(result, "estimated_error_of_means", estimates(2), error)
-      if (.not. allocated(error)) call get_summary(result, "estimated_error_of_extremes", estimates(3), error)
-   end subroutine get_estimates
-
    !> Numerics for another try where a cycle could not be integrated: another method, unless one is named, then another tolerance.
    pure subroutine take_way_out(given, numerics, least, has_way_out)
       !> Numerics as given
@@ -312,118 +302,21 @@ contains
       end do
       call take_statistics(case, series, models, try%cycles, try%statistics, error)
       if (allocated(error)) return
-      try%error = maxval(try%statistics%error)
+      ! Without a period a smaller tolerance leads along other turns, whose scatter is as large
+      try%error = maxval(try%statistics%error, mask=[(may_be_refined(try%cycles(lobe)), lobe=1, size(models))])
       if (.not. allocated(case%dynamics)) try%error = max(try%error, maxval(try%statistics%mean_error))
    end subroutine integrate_models
 
-   !> Remarks on errors that are too large.
-   subroutine judge(numerics, result, error)
-      !> Numerics as given
-      type(numerics_t), intent(in) :: numerics
-      !> The result
-      type(result_t), intent(inout) :: result
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Estimated errors of sliding speed, means and extremes [-]
-      real(wp) :: estimates(3)
-
-      call get_estimates(result, estimates, error)
-      if (allocated(error)) return
-      if (is_checked(numerics)) call judge_accuracy(result, numerics%accuracy, estimates, error)
-      if (has_tolerance(numerics)) call judge_tolerance(numerics, result, estimates)
-   end subroutine judge
-
-   !> Remarks on an accuracy that was not reached, or an error where nothing of the result can be right.
-   subroutine judge_accuracy(result, accuracy, estimates, error)
-      !> The result
-      type(result_t), intent(inout) :: result
-      !> Accuracy wanted [-]
-      real(wp), intent(in) :: accuracy
-      !> Estimated errors of sliding speed, means and extremes [-]
-      real(wp), intent(in) :: estimates(3)
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Cam angle where the estimate is largest [deg]
-      real(wp) :: angle
-
-      if (estimates(1) >= 1.0_wp) then
-         call get_summary(result, "estimated_error_angle", angle, error)
-         if (allocated(error)) return
-         call raise(error, kind_convergence, "the cycle was not found: its estimated error is "//number_text(estimates(1), 2)// &
-            & " of the sliding speed, largest at cam angle "//fixed_text(angle, 3)//" deg; the spin is hardly damped there, or "// &
-            & "friction reaches its limit abruptly")
-         return
-      end if
-      if (estimates(1) > accuracy) call add_remark(result%remarks, missed_accuracy, &
-         & "the accuracy asked for was not reached; the estimated error is "//number_text(estimates(1), 2), estimates(1))
-      if (estimates(2) > accuracy) call add_remark(result%remarks, missed_means, &
-         & "the means did not reach the accuracy asked for; the largest estimated error, of mean_"//trim(result%worst_mean)// &
-         & ", is "//number_text(estimates(2), 2), estimates(2))
-      if (estimates(3) > accuracy .and. lacks_period(result)) then
-         call say_no_period(result)
-      else if (estimates(3) > accuracy) then
-         call add_remark(result%remarks, missed_extremes, "the extremes did not reach the accuracy asked for; the largest "// &
-            & "estimated error, of "//trim(result%worst_extreme)//", is "//number_text(estimates(3), 2)//" of its range", &
-            & estimates(3))
-      end if
-   end subroutine judge_accuracy
-
-   !> Is a train of the case without a period?
-   pure function lacks_period(result) result(verdict)
-      !> The result
-      type(result_t), intent(in) :: result
-      !> Is one?
+   !> Does a smaller tolerance lead to the same cycle with a smaller error?
+   pure function may_be_refined(cycle) result(verdict)
+      !> The cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Does it, as far as is known?
       logical :: verdict
 
-      integer :: i
-
-      verdict = any([(result%remarks(i)%kind == no_period, i=1, size(result%remarks))])
-   end function lacks_period
-
-   !> Remark on extremes of a motion without a period: a smaller tolerance leads along other turns, and no accuracy changes that.
-   subroutine say_no_period(result)
-      !> The result; gets the remark
-      type(result_t), intent(inout) :: result
-
-      call add_remark(result%remarks, missed_extremes, "smallest and largest values are those of the turns computed: without a "// &
-         & "period they have no error that could be estimated")
-   end subroutine say_no_period
-
-   !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
-   !> errors of steps pile up where hardly anything damps, or means follow the sliding speed too strongly.
-   subroutine judge_tolerance(numerics, result, estimates)
-      !> Numerics as given
-      type(numerics_t), intent(in) :: numerics
-      !> The result
-      type(result_t), intent(inout) :: result
-      !> Estimated errors of sliding speed, means and extremes [-]
-      real(wp), intent(in) :: estimates(3)
-
-      if (estimates(1) > numerics%tolerance*far_beyond) call say_far("the error", estimates(1))
-      if (estimates(2) > numerics%tolerance*far_beyond) call say_far("the error of mean_"//trim(result%worst_mean), estimates(2))
-      if (estimates(3) > numerics%tolerance*far_beyond .and. lacks_period(result)) then
-         call say_no_period(result)
-      else if (estimates(3) > numerics%tolerance*far_beyond) then
-         call say_far("the error of the extremes of "//trim(result%worst_extreme), estimates(3))
-      end if
-
-   contains
-
-      !> The remark on one of the errors.
-      subroutine say_far(what, estimate)
-         !> The error in words
-         character(len=*), intent(in) :: what
-         !> Its estimate [-]
-         real(wp), intent(in) :: estimate
-
-         call add_remark(result%remarks, loose_tolerance, "the tolerance "//number_text(numerics%tolerance, 2)// &
-            & " does not control "//what//": its estimate is "//number_text(estimate, 2)// &
-            & "; give 'accuracy' instead of 'tolerance'", estimate)
-      end subroutine say_far
-
-   end subroutine judge_tolerance
+      verdict = .true.
+      if (allocated(cycle%flexible)) verdict = cycle%flexible%cycle%period > 0
+   end function may_be_refined
 
    !> Models of the lobe shapes of a case, geometry checked over the whole cycle.
    subroutine build_models(case, models, error)

@@ -10,9 +10,14 @@ module test_flexible_periods
    use camroller_flexible_turn, only : start_turns, turn_t
    use camroller_flexible_train, only : at_finger, at_lift, at_plunger
    use camroller_number_text, only : integer_text, number_text
+   use camroller_remarks, only : missed_accuracy, remark_lines
+   use camroller_result, only : result_t
+   use camroller_run, only : run_case
    use closeness, only : check_scaled
+   use deck_cases, only : get_deck_case
    use flexible_cases, only : add_dynamics
    use reference_cases, only : make_model, set_point, thesis_case
+   use result_checks, only : scalar_of
    use run_settings, only : has_checks
    implicit none
    private
@@ -39,6 +44,8 @@ contains
          new_unittest("a cycle whose disturbances come back with the other sign, and larger, is not found", test_unstable), &
          new_unittest("a state that loses a hundredth a turn is extrapolated from three turns", test_extrapolation), &
          new_unittest("a train that takes more steps than it may is given up with words for its fastest part", test_work), &
+         new_unittest("the search for a period ends after as many steps as it may take, without an error", test_search), &
+         new_unittest("a train that rattles without a period is not integrated again with a smaller tolerance", test_scatter), &
          new_unittest("turns that drift or approach a period are told from those that scatter", test_trend) &
          ]
    end subroutine collect_flexible_periods
@@ -176,6 +183,70 @@ contains
          & "fastest part of the train, with ") == 1 .and. index(failure%message, "is that of lash_adjuster.check_area_mm2") > 0, &
          & failure%message)
    end subroutine test_work
+
+   !> A turn takes two thousand steps.
+   subroutine test_search(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(turn_t) :: turn
+      type(flexible_cycle_t) :: cycle
+      type(error_t), allocatable :: failure
+      ! State [state]
+      real(wp), allocatable :: state(:)
+
+      the_case = thesis_case()
+      call set_point(the_case, 10.0_wp*pi, 0.01_wp)
+      call add_dynamics(the_case, 5, .true.)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call start_turns(turn, model, "rodas5p", tolerance, failure)
+      turn%most_search = 300
+      if (.not. allocated(failure)) call rest_of_train(model, state, failure)
+      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, closure, 5, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call check(error, cycle%cycles == 1 .and. cycle%period == 0, "cycles that were tried: "//integer_text(cycle%cycles))
+   end subroutine test_search
+
+   !> With lash. Rounding may decide whether a period is found at a speed, and how large the error is; most of these speeds show
+   !> what is looked for.
+   subroutine test_scatter(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Accuracy [-], lash [m], speeds [rev/min]
+      real(wp), parameter :: accuracy = 0.05_wp, lash = 1.0e-4_wp, speeds(*) = [900.0_wp, 3000.0_wp, 3010.0_wp, 905.0_wp]
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      do i = 1, size(speeds)
+         call run_rattling(lash, speeds(i), accuracy, result, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         if (scalar_of(result, "period_cycles") > 0.5_wp .or. scalar_of(result, "estimated_error") <= accuracy) cycle
+         call check(error, any(result%remarks%kind == missed_accuracy) .and. &
+            & index(remark_lines(result%remarks), "is known by its statistics alone") > 0, remark_lines(result%remarks))
+         return
+      end do
+      call test_failed(error, "all errors are below the accuracy")
+   end subroutine test_scatter
+
+   !> Run the train of `decks/dynamics.nml` with lash, without surge of its spring.
+   subroutine run_rattling(lash, speed, accuracy, result, failure)
+      !> Lash [m], speed [rev/min], accuracy [-]
+      real(wp), intent(in) :: lash, speed, accuracy
+      type(result_t), intent(out) :: result
+      type(error_t), allocatable, intent(out) :: failure
+      type(case_t) :: the_case
+
+      call get_deck_case("decks/dynamics.nml", the_case, failure)
+      if (allocated(failure)) return
+      deallocate (the_case%spring_surge)
+      call set_point(the_case, speed*pi/30.0_wp, 0.01_wp)
+      the_case%dynamics%lash = lash
+      the_case%numerics%accuracy = accuracy
+      call run_case(the_case, result, failure)
+   end subroutine run_rattling
 
    !> Starts of 40 turns: of a chaotic map, the same on a slope, and what approaches a fixed point or a period of two.
    subroutine test_trend(error)
