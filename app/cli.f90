@@ -286,9 +286,9 @@ contains
       case ("--point")
          config%has_no_sweep = .true.
          if (index(value, ".") == 0 .or. index(value, ".") > max(1, index(value, "="))) then
-            call add_override(config%overrides, "operating_point."//value)
+            call add_point("operating_point."//value)
          else
-            call add_override(config%overrides, value)
+            call add_point(value)
          end if
       case ("--no-sweep")
          config%has_no_sweep = .true.
@@ -321,7 +321,29 @@ contains
          if (option == "--draw-lift") config%lift_drawing = value
          if (option == "--cam") config%cam_table = value
          if (value == "") call raise(error, kind_usage, "option '"//option//"' needs the name of a file"//see(config))
+         if (value /= "" .and. count([config%drawing == value, config%lift_drawing == value, config%cam_table == value]) > 1) &
+            & call raise(error, kind_usage, "two options name the same file, '"//value//"'"//see(config))
       end select
+
+   contains
+
+      !> One more value of the point; a key has one.
+      subroutine add_point(text)
+         !> As `group.key=value`
+         character(len=*), intent(in) :: text
+
+         integer :: i, last
+
+         last = index(text, "=")
+         do i = 1, size(config%overrides)
+            if (last == 0 .or. index(config%overrides(i)%text, text(:last)) /= 1) cycle
+            call raise(error, kind_usage, "'"//text(:last - 1)//"' has two values, and a point takes one; several are a "// &
+               & "sweep: --set sweep.key_1="//text(:last - 1)//" --set sweep.values_1=VALUE,VALUE"//see(config))
+            return
+         end do
+         call add_override(config%overrides, text)
+      end subroutine add_point
+
    end subroutine set_option_of_looking
 
    !> A speed above zero.

@@ -310,8 +310,7 @@ contains
       problem%accuracy = contact_accuracy*resolved%tolerance
       if (cycle%is_linear) problem%accuracy = 0.0_wp
       options%tolerance = [step_part*resolved%tolerance*scale]
-      options%step = numerics%step
-      if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
+      options%step = merge(numerics%step, first_step, cycle%is_linear)
       if (method%needs_jacobian) then
          options%max_steps = most_implicit_steps
          options%max_evaluations = evaluations_allowed(resolved%tolerance)

@@ -8,12 +8,14 @@ module camroller_deck_remarks
    use camroller_number_text, only : number_text, is_number
    use camroller_mistakes, only : add_line, line_t, shown
    use camroller_text_list, only : text_at
-   use camroller_deck_schema, only : key_t, type_number, type_numbers
+   use camroller_deck_schema, only : key_length, key_t, range_t, type_number, type_numbers
    use camroller_deck_values, only : read_value, value_t
    use camroller_deck_meant, only : ask_kinematic, is_usual, say_meant
+   use camroller_deck_sense, only : list_odd_pairs
    use camroller_deck_sweep, only : axis_of, sweep_axis_t
    use camroller_key_uses, only : is_idle, say_idle
-   use camroller_settings, only : settings_t, get_word, take, find_value
+   use camroller_engine, only : speed_names
+   use camroller_settings, only : settings_t, get_word, has_group, take, find_value
    use camroller_deck_table_remarks, only : remark_lift, remark_pressure, remark_rows
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, make_case, override_t
@@ -41,7 +43,14 @@ contains
       !> Sentences
       type(line_t), allocatable, intent(out) :: remarks(:)
 
+      character(len=2*key_length) :: varied(size(deck%sweep%axes))
+      integer :: i
+
       call list_number_remarks(deck, remarks)
+      do i = 1, size(varied)
+         varied(i) = deck%sweep%axes(i)%key
+      end do
+      call list_odd_pairs(deck%settings, varied, remarks)
       call remark_viscosity(deck, remarks)
       call remark_hths(deck, remarks)
       call remark_temperature(deck, remarks)
@@ -57,12 +66,15 @@ contains
       !> Sentences
       type(line_t), allocatable, intent(out) :: remarks(:)
 
+      type(key_t) :: key
       integer :: i, k, axis
 
       allocate (remarks(0))
       if (.not. allocated(deck%settings%values) .or. .not. allocated(deck%sweep%axes)) return
       do i = 1, deck%schema%key_count
-         associate (key => deck%schema%keys(i), value => deck%settings%values(i))
+         key = deck%schema%keys(i)
+         if (name_of(deck, i) == "operating_point.speed_rpm") call take_crank_speed(deck, key%usual)
+         associate (value => deck%settings%values(i))
             if (.not. value%is_given .or. .not. value%is_known) cycle
             if (.not. deck%settings%groups(key%group)%is_present) cycle
             if (is_idle(deck%settings, deck%sweep, name_of(deck, i))) then
@@ -83,6 +95,23 @@ contains
       call remark_rows(deck%settings, "lift", deck%tables%lift, remarks)
       call remark_rows(deck%settings, "second_lift", deck%tables%second_lift, remarks)
    end subroutine list_number_remarks
+
+   !> Usual speeds where an engine's deck gives that of the crankshaft.
+   subroutine take_crank_speed(deck, usual)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Usual range; in: of the camshaft's speed
+      type(range_t), intent(inout) :: usual
+
+      integer :: strokes
+
+      if (.not. has_group(deck%settings, "engine")) return
+      if (get_word(deck%settings, "engine", "given_speed") /= speed_names(1)) return
+      strokes = 4
+      call take(deck%settings, "engine", "strokes", strokes)
+      usual%smallest = 0.5_wp*strokes*usual%smallest
+      usual%largest = 0.5_wp*strokes*usual%largest
+   end subroutine take_crank_speed
 
    !> Name of a key with its group.
    pure function name_of(deck, position) result(name)

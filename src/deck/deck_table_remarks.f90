@@ -23,6 +23,8 @@ module camroller_deck_table_remarks
    real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
    !> Usual largest magnitudes of a gauge pressure: from pulses in a manifold to a truck's engine under full load [Pa]
    real(wp), parameter :: usual_pressure(2) = [2.0e3_wp, 3.0e7_wp]
+   !> Gauge pressure that nothing is below: a vacuum, and some high weather [Pa]
+   real(wp), parameter :: vacuum = -1.1e5_wp
    !> Powers of ten between a table's unit and another one; nearer ones first
    integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
 
@@ -146,6 +148,9 @@ contains
       if (size(table%x) == 0) return
       largest = maxval(abs(table%y))
       call find_unit(get_word(settings, "gas_force", "pressure_unit"), unit, is_there)
+      if (to_si(unit, minval(table%y)) < vacuum) call add_line(remarks, table%path//": a gauge pressure of "// &
+         & number_text(1.0e-6_wp*to_si(unit, minval(table%y)), digits)//" MPa is below that of a vacuum; positive pressures "// &
+         & "press the valve shut")
       pressure = to_si(unit, largest)
       if (is_usual_pressure(pressure) .or. .not. largest > 0.0_wp) return
       words = ""

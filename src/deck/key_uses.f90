@@ -52,8 +52,10 @@ module camroller_key_uses
       key_use_t("lubricant.viscosity_index", "temperature_law", "data_sheet"), &
       key_use_t("lubricant.sae_grade", "temperature_law", "data_sheet"), &
       key_use_t("lubricant.density_kg_m3", "temperature_law", density_laws), &
+      key_use_t("lubricant.density_kg_m3", "&needle_drag"), &
       key_use_t("lubricant.density_kg_m3", "&bearing_heat"), &
       key_use_t("lubricant.thermal_expansion_per_K", "temperature_law", density_laws), &
+      key_use_t("lubricant.thermal_expansion_per_K", "&needle_drag"), &
       key_use_t("lubricant.thermal_expansion_per_K", "&bearing_heat"), &
       key_use_t("lubricant.roelands_index", "pressure_viscosity_coefficient_per_GPa", not_given), &
       key_use_t("film.law", "&ehl", not_given), &

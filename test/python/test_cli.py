@@ -73,6 +73,8 @@ def test_version_is_printed(camroller):
     (["study", "x", "--repeats", "0"], "option '--repeats' takes a number of runs, from 1, not '0'"),
     (["sweep", "x", "--log-every", "-1"], "option '--log-every' takes a time in whole seconds, not '-1'"),
     (["sweep", "x", "--shard", "3/2"], "option '--shard' takes a shard and the number of shards, as 2/4, not '3/2'"),
+    (["run", "x", "--point", "speed_rpm=600", "--point", "speed_rpm=900"], "'operating_point.speed_rpm' has two values, and a point takes"),
+    (["check", "x", "--draw", "a.svg", "--cam", "a.svg"], "two options name the same file, 'a.svg'"),
     (["help", "me"], "unknown command 'me'"),
     (["defaults", "asperty"], "no group 'asperty'; did you mean 'asperity'?"),
 ])

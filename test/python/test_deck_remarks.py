@@ -117,6 +117,50 @@ def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
     assert remarks_of(camroller, "decks/three_cam_head.nml", f"gas_force.table={table}", "gas_force.pressure_unit=Pa") == []
 
 
+@pytest.mark.parametrize(("deck", "groups", "values", "words"), [
+    ("thesis", "", ["roller.mass_kg=0.05"], ["is not below masses.finger_kg = 0.0418", "would have 33 g/cm^3"]),
+    ("thesis", "", ["roller.mass_kg=0.001"], ["would have 0.66 g/cm^3; steel has 7.8"]),
+    ("thesis", "", ["masses.finger_inertia_kg_m2=1e-3"], ["would be 155 mm from its pivot, whose pad is at 35.5 mm"]),
+    ("thesis", "&needle_drag pitch_diameter_mm = 50 /", [], ["pitch_diameter_mm = 50: radius, wall and needles of the roller give 10.22 mm"]),
+    ("thesis", "&needle_drag pitch_diameter_mm = 10.2 /", ["lubricant.density_kg_m3=900"], []),
+    ("thesis", "&needle_drag pitch_diameter_mm = 10.2 /\n&heat inlet_law = 'none' contact = 'none' /", [], ["&heat has no effect"]),
+    ("thesis", "&boundary_law reference_speed_m_s = 0.1 reference_temperature_degC = 100 change_per_decade = 0.01 change_per_K = -2e-4\n"
+     "lowest_speed_m_s = 0.001 /", ["asperity.boundary_coefficient=0.5"], ["= 0.5 is cut to boundary_law.largest_coefficient = 0.3"]),
+    ("sliding_joints", "", ["guide_side_load.tip_height_mm=5"], ["would go 4.5 mm into its guide, with a lift of 9.5 mm"]),
+    ("sliding_joints", "", ["guide_side_load.stem_axis_mm=100"], ["the pad is 35.5 mm from the pivot and would not reach"]),
+    ("sliding_joints", "", ["guide_side_load.guide_length_mm=60"], ["= 60 and valve_guide.length_mm = 36 are of the same guide"]),
+    ("dynamics", "", ["dynamics.lash_mm=0.2"], ["spring.base_circle_load_N = 64 does not load the flexible train"]),
+    ("four_cylinder", "", ["engine.full_lift_deg=110,-110"], ["full_lift_deg = 110: a valve would be wide open within 120 degrees"]),
+    ("four_cylinder", "", ["cam_bearings.cam_cylinders=1,1,1,1,2,2,2,2"], ["2 cylinders of 4 without a cam"]),
+    ("four_cylinder", "", ["operating_point.speed_rpm=7000", "lubricant.hths_viscosity_mPa_s=3"], []),
+    ("four_cylinder", "", ["lubricant.viscosity_at_40_degC_mm2_s=16", "lubricant.hths_viscosity_mPa_s=3.9"],
+     ["16 mm^2/s at 40 degC and 11 at 100 degC are unusual: a viscosity index above 300"]),
+])
+def test_values_that_do_not_go_together_give_remarks(camroller, tmp_path, deck, groups, values, words):
+    text = (ROOT / f"decks/{deck}.nml").read_text() + groups + "\n"
+    place = ROOT / "decks"
+    words_of_values = [word for value in values for word in ("--set", value)]
+    done = subprocess.run([camroller, "check", "-", *words_of_values], input=text, capture_output=True, text=True, cwd=place, check=False)
+    remarks = [line for line in done.stderr.splitlines() if line.startswith("remark: ")]
+    assert len(remarks) == len(words), remarks
+    for remark, word in zip(remarks, words):
+        assert word in remark
+
+
+def test_temperatures_without_effect_give_a_remark(camroller):
+    direct = ["lubricant.temperature_law=direct", "lubricant.viscosity_Pa_s=0.03"]
+    assert any("oil_temperature_degC varies without effect" in remark for remark in remarks_of(camroller, "decks/thesis.nml", *direct))
+    assert not any("varies" in remark for remark in remarks_of(camroller, "decks/thesis.nml"))
+
+
+def test_a_pressure_below_a_vacuum_gives_a_remark(camroller, tmp_path):
+    rows = [line.split() for line in (ROOT / "decks/tables/cylinder_pressure.txt").read_text().splitlines() if line.strip()[:1].isdigit()]
+    table = tmp_path / "pressure.txt"
+    table.write_text("".join(f"{angle} {-float(bar)}\n" for angle, bar in rows))
+    remarks = remarks_of(camroller, "decks/three_cam_head.nml", f"gas_force.table={table}")
+    assert len(remarks) == 1 and "is below that of a vacuum; positive pressures press the valve shut" in remarks[0], remarks
+
+
 def shifted_table(path, row, shift, kink=0.0):
     """The lift table of the decks, a row of it off by some millimetres, and slower by some of them in each row from there on."""
     rows = [line.split() for line in (ROOT / "decks/tables/polynomial_lift.txt").read_text().splitlines() if line.strip()[:1].isdigit()]

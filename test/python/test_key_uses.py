@@ -37,7 +37,7 @@ VALUES = {
     "stem_seal.reference_viscosity_Pa_s": "0.02", "cam_bearings.cam_cylinders": None,
     "dynamics.seat_damping_s_m": "2", "dynamics.seat_restitution_speed_m_s": "0.4",
     "effects.negligible": "0.05", "effects.quantity": "minimum_film",
-    "numerics.step_deg": "2", "numerics.periodicity": "0.5", "sweep.series_cases": None,
+    "numerics.step_deg": "0.05", "numerics.periodicity": "0.5", "sweep.series_cases": None,
 }
 
 STRIBECK = """   law = 'stribeck' friction_coefficient = 0.1 decay_speed_m_s = 0.3 viscous_part_s_m = 0.01

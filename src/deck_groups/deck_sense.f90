@@ -1,0 +1,317 @@
+!> Decks: values that are each possible, and together belong to no train.
+!>
+!> In: settings, the keys that vary. Out: a sentence for each such pair. Nothing is refused for them; values that no train can have
+!> at all are mistakes of their own groups.
+module camroller_deck_sense
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_mistakes, only : add_line, line_t
+   use camroller_needle, only : kind_needles, roller_bearing_names
+   use camroller_number_text, only : counted, integer_text, number_text
+   use camroller_oil_data, only : smallest_indexed, viscosity_at_40
+   use camroller_settings, only : get_word, has_group, is_known, settings_t, take
+   implicit none
+   private
+
+   public :: list_odd_pairs
+
+   !> Digits of numbers in sentences
+   integer, parameter :: digits = 4
+   !> Millimetres of a metre [mm/m], grams per cubic centimetre of a kilogram per cubic metre [-]
+   real(wp), parameter :: mm = 1.0e3_wp, g_cm3 = 1.0e-3_wp
+   !> Rounding and chamfers: lengths that differ by less agree [-]
+   real(wp), parameter :: room = 0.1_wp
+   !> Density of a ring as wide as the contact: steel has 7800, ceramics 3200; rings may be twice as wide, or half [kg/m^3]
+   real(wp), parameter :: ring_density(2) = [1500.0_wp, 16000.0_wp]
+   !> Viscosity index of engine oils: plain mineral oils have 60 to 100, the best multigrade oils 250 [-]
+   real(wp), parameter :: usual_index(2) = [50.0_wp, 300.0_wp]
+
+contains
+
+   !> All of them.
+   subroutine list_odd_pairs(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary, as `group.key`: nothing is said about them
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      call compare_masses(settings, varied, remarks)
+      call compare_roller_bearing(settings, varied, remarks)
+      call compare_guide(settings, varied, remarks)
+      call compare_viscosities(settings, varied, remarks)
+      call compare_lash(settings, varied, remarks)
+      call compare_boundary(settings, varied, remarks)
+      call look_at_engine(settings, varied, remarks)
+      call look_at_temperature(settings, varied, remarks)
+      if (.not. has_group(settings, "heat")) return
+      if (any(varied == "heat.inlet_law") .or. any(varied == "heat.contact")) return
+      if (get_word(settings, "heat", "inlet_law") == "none" .and. get_word(settings, "heat", "contact") == "none") &
+         & call add_line(remarks, "&heat has no effect: inlet_law and contact are both 'none'")
+   end subroutine list_odd_pairs
+
+   !> The ring is made of something, and is a part of the finger, whose mass is where the finger is.
+   subroutine compare_masses(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Values of keys [SI units]
+      real(wp) :: value(4)
+      ! Density of the ring [kg/m^3], radius of gyration [m]
+      real(wp) :: density, gyration
+      logical :: are_there
+
+      call get(settings, varied, "roller.mass_kg masses.finger_kg", value, are_there)
+      if (are_there .and. value(2) > 0.0_wp .and. value(1) >= value(2)) call add_line(remarks, "roller.mass_kg = "// &
+         & number_text(value(1), digits)//" is not below masses.finger_kg = "//number_text(value(2), digits)// &
+         & ", which holds the roller too")
+      call get(settings, varied, "roller.mass_kg roller.radius_mm roller.wall_thickness_mm mechanism.contact_width_mm", value, &
+         & are_there)
+      if (are_there) then
+         density = value(1)/(pi*value(3)*(2.0_wp*value(2) - value(3))*value(4))
+         if (density < ring_density(1) .or. density > ring_density(2)) call add_line(remarks, "roller.mass_kg = "// &
+            & number_text(value(1), digits)//": a ring of these radii, as wide as the contact, would have "// &
+            & number_text(g_cm3*density, 2)//" g/cm^3; steel has 7.8")
+      end if
+      call get(settings, varied, "masses.finger_inertia_kg_m2 masses.finger_kg mechanism.pivot_to_pad_mm", value, are_there)
+      if (.not. are_there .or. .not. value(2) > 0.0_wp) return
+      gyration = sqrt(value(1)/value(2))
+      if (gyration > (1.0_wp + room)*value(3)) call add_line(remarks, "masses.finger_inertia_kg_m2 = "// &
+         & number_text(value(1), digits)//": the finger's mass would be "//number_text(mm*gyration, 3)// &
+         & " mm from its pivot, whose pad is at "//number_text(mm*value(3), digits)//" mm")
+   end subroutine compare_masses
+
+   !> Needles roll between pin and ring.
+   subroutine compare_roller_bearing(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Values of keys, radius of the needles, diameter of their circle by the others [m]
+      real(wp) :: value(3), needle(1), by_others
+      logical :: are_there, is_there
+
+      if (.not. has_group(settings, "needle_drag")) return
+      if (has_group(settings, "needle_bearing") .and. .not. any(varied == "needle_bearing.kind")) then
+         if (get_word(settings, "needle_bearing", "kind") /= roller_bearing_names(kind_needles)) then
+            call add_line(remarks, "&needle_drag is the oil's drag on needles, and needle_bearing.kind is '"// &
+               & get_word(settings, "needle_bearing", "kind")//"'")
+            return
+         end if
+      end if
+      call get(settings, varied, "needle_drag.pitch_diameter_mm roller.radius_mm roller.wall_thickness_mm", value, are_there)
+      if (.not. are_there) return
+      call get(settings, varied, "needle_bearing.needle_radius_mm", needle, is_there)
+      if (.not. is_there) needle = 0.0_wp
+      by_others = 2.0_wp*(value(2) - value(3) - needle(1))
+      if (is_there .and. abs(value(1) - by_others) <= room*by_others) return
+      if (.not. is_there .and. value(1) <= by_others .and. value(1) >= 0.5_wp*by_others) return
+      call add_line(remarks, "needle_drag.pitch_diameter_mm = "//number_text(mm*value(1), digits)// &
+         & ": radius, wall and needles of the roller give "//number_text(mm*by_others, digits)//" mm")
+   end subroutine compare_roller_bearing
+
+   !> The guide of &valve_guide is that of &guide_side_load; the valve's tip stays above it, and the pad reaches it.
+   subroutine compare_guide(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=*), parameter :: group = "guide_side_load", lifts(*) = [character(len=11) :: "lift", "second_lift"]
+      ! Values of keys [m]
+      real(wp) :: value(2)
+      logical :: are_there
+      integer :: i
+
+      if (.not. has_group(settings, group)) return
+      call get(settings, varied, group//".guide_length_mm valve_guide.length_mm", value, are_there)
+      if (are_there .and. abs(value(1) - value(2)) > room*maxval(value)) call add_line(remarks, group//".guide_length_mm = "// &
+         & number_text(mm*value(1), digits)//" and valve_guide.length_mm = "//number_text(mm*value(2), digits)// &
+         & " are of the same guide")
+      do i = 1, size(lifts)
+         call get(settings, varied, group//".tip_height_mm "//trim(lifts(i))//".max_lift_mm", value, are_there)
+         if (.not. are_there .or. value(1) >= value(2)) cycle
+         call add_line(remarks, group//".tip_height_mm = "//number_text(mm*value(1), digits)//": the valve's tip would go "// &
+            & number_text(mm*(value(2) - value(1)), 3)//" mm into its guide, with a lift of "//number_text(mm*value(2), digits)// &
+            & " mm")
+         exit
+      end do
+      call get(settings, varied, group//".stem_axis_mm mechanism.pivot_to_pad_mm", value, are_there)
+      if (are_there .and. value(1) > (1.0_wp + room)*value(2)) call add_line(remarks, group//".stem_axis_mm = "// &
+         & number_text(mm*value(1), digits)//": the pad is "//number_text(mm*value(2), digits)// &
+         & " mm from the pivot and would not reach the valve")
+   end subroutine compare_guide
+
+   !> Two viscosities of one oil.
+   subroutine compare_viscosities(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Square millimetres of a square metre [mm^2/m^2]
+      real(wp), parameter :: mm2 = 1.0e6_wp
+      ! Viscosities at 40 and 100 degC [mm^2/s]
+      real(wp) :: value(2)
+      character(len=:), allocatable :: words
+      logical :: are_there
+
+      if (get_word(settings, "lubricant", "temperature_law") /= "data_sheet") return
+      call get(settings, varied, "lubricant.viscosity_at_40_degC_mm2_s lubricant.viscosity_at_100_degC_mm2_s", value, are_there)
+      if (.not. are_there) return
+      value = mm2*value
+      if (value(2) < smallest_indexed) return
+      if (value(1) > viscosity_at_40(value(2), usual_index(1))) then
+         words = "below "//number_text(usual_index(1))
+      else if (value(1) < viscosity_at_40(value(2), usual_index(2))) then
+         words = "above "//number_text(usual_index(2))
+      else
+         return
+      end if
+      call add_line(remarks, "lubricant: "//number_text(value(1), digits)//" mm^2/s at 40 degC and "// &
+         & number_text(value(2), digits)//" at 100 degC are unusual: a viscosity index "//words//"; are they of the same oil?")
+   end subroutine compare_viscosities
+
+   !> With lash nothing presses the roller onto the base circle.
+   subroutine compare_lash(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Lash [m], load [N]
+      real(wp) :: value(2)
+      logical :: are_there
+
+      call get(settings, varied, "dynamics.lash_mm spring.base_circle_load_N", value, are_there)
+      if (are_there .and. all(value > 0.0_wp)) call add_line(remarks, "spring.base_circle_load_N = "// &
+         & number_text(value(2), digits)//" does not load the flexible train, which has lash on its base circle; margins and "// &
+         & "estimates of the rigid train have it")
+   end subroutine compare_lash
+
+   !> The coefficient of asperities is that of the logarithmic law at its reference, and within its bounds.
+   subroutine compare_boundary(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=*), parameter :: key = "asperity.boundary_coefficient", group = "boundary_law"
+      ! Coefficients [-]
+      real(wp) :: value(3)
+      logical :: are_there
+
+      if (any(varied == group//".law") .or. get_word(settings, group, "law") /= "logarithmic") return
+      call get(settings, varied, key//" "//group//".smallest_coefficient "//group//".largest_coefficient", value, are_there)
+      if (.not. are_there) return
+      if (value(1) > value(3)) call add_line(remarks, key//" = "//number_text(value(1), digits)//" is cut to "//group// &
+         & ".largest_coefficient = "//number_text(value(3), digits))
+      if (value(1) < value(2)) call add_line(remarks, key//" = "//number_text(value(1), digits)//" is raised to "//group// &
+         & ".smallest_coefficient = "//number_text(value(2), digits))
+   end subroutine compare_boundary
+
+   !> Valves open when their cylinder does not fire, each lobe shape at its time, and each cylinder has some.
+   subroutine look_at_engine(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Crank angles of full lift, and of a working cycle [rad]
+      real(wp), allocatable :: full_lift(:)
+      real(wp) :: cycle_angle
+      ! Nearest to firing that a valve of a four-stroke engine is wide open: exhaust valves begin to open there [rad]
+      real(wp), parameter :: near_firing = 120.0_wp*degree
+      integer, allocatable :: cylinders_of_cams(:)
+      integer :: cylinders, strokes, i, idle
+
+      if (.not. (has_group(settings, "engine") .and. has_group(settings, "cam_bearings"))) return
+      strokes = 4
+      call take(settings, "engine", "strokes", strokes)
+      if (strokes == 4 .and. is_known(settings, "engine", "full_lift_deg") .and. .not. any(varied == "engine.full_lift_deg")) then
+         call take(settings, "engine", "full_lift_deg", full_lift)
+         cycle_angle = pi*strokes
+         do i = 1, size(full_lift)
+            if (abs(modulo(full_lift(i) + 0.5_wp*cycle_angle, cycle_angle) - 0.5_wp*cycle_angle) >= near_firing) cycle
+            call add_line(remarks, "engine.full_lift_deg = "//number_text(full_lift(i)/degree, digits)// &
+               & ": a valve would be wide open within 120 degrees of the firing of its cylinder, from which full lift counts")
+            exit
+         end do
+      end if
+      if (.not. (is_known(settings, "engine", "cylinders") .and. is_known(settings, "cam_bearings", "cam_cylinders"))) return
+      call take(settings, "engine", "cylinders", cylinders)
+      call take(settings, "cam_bearings", "cam_cylinders", cylinders_of_cams)
+      idle = count([(.not. any(cylinders_of_cams == i), i=1, cylinders)])
+      if (idle > 0) call add_line(remarks, "cam_bearings.cam_cylinders: "//counted(idle, "cylinder")//" of "// &
+         & integer_text(cylinders)//" without a cam; torques and friction mean effective pressure are those of the others")
+   end subroutine look_at_engine
+
+   !> Temperatures of the oil without a law that needs them.
+   subroutine look_at_temperature(settings, varied, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=*), parameter :: key = "operating_point.oil_temperature_degC", users(*) = [character(len=17) :: "heat", &
+         & "friction_modifier", "boundary_law", "tribofilm", "needle_drag", "shaft_drag"]
+      integer :: i
+
+      if (.not. any(varied == key) .or. any(varied == "lubricant.temperature_law")) return
+      if (get_word(settings, "lubricant", "temperature_law") /= "direct") return
+      if (is_known(settings, "lubricant", "pressure_viscosity_points_per_GPa")) return
+      if (any([(has_group(settings, trim(users(i))), i=1, size(users))])) return
+      call add_line(remarks, key//" varies without effect: lubricant.temperature_law is 'direct', one viscosity at all "// &
+         & "temperatures")
+   end subroutine look_at_temperature
+
+   !> Values of numbers, where all of them are there and none varies.
+   subroutine get(settings, varied, keys, values, are_there)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys that vary
+      character(len=*), intent(in) :: varied(:)
+      !> Their names as `group.key`, single blanks between them
+      character(len=*), intent(in) :: keys
+      !> The first of them; 0 where not all are there [SI unit of each]
+      real(wp), intent(out) :: values(:)
+      !> Are they?
+      logical, intent(out) :: are_there
+
+      integer :: first, last, dot, i
+
+      values = 0.0_wp
+      are_there = .true.
+      first = 1
+      i = 0
+      do while (first <= len(keys) .and. are_there)
+         last = first + index(keys(first:)//" ", " ") - 2
+         dot = first + index(keys(first:last), ".") - 1
+         i = i + 1
+         are_there = has_group(settings, keys(first:dot - 1)) .and. .not. any(varied == keys(first:last))
+         if (are_there) are_there = is_known(settings, keys(first:dot - 1), keys(dot + 1:last))
+         if (are_there) call take(settings, keys(first:dot - 1), keys(dot + 1:last), values(i))
+         first = last + 2
+      end do
+   end subroutine get
+
+end module camroller_deck_sense
