@@ -321,8 +321,9 @@ contains
          if (option == "--draw-lift") config%lift_drawing = value
          if (option == "--cam") config%cam_table = value
          if (value == "") call raise(error, kind_usage, "option '"//option//"' needs the name of a file"//see(config))
-         if (value /= "" .and. count([config%drawing == value, config%lift_drawing == value, config%cam_table == value]) > 1) &
-            & call raise(error, kind_usage, "two options name the same file, '"//value//"'"//see(config))
+         if (value /= "" .and. count([config%drawing == value, config%lift_drawing == value, config%cam_table == value]) > 1) then
+            call raise(error, kind_usage, "two options name the same file, '"//value//"'"//see(config))
+         end if
       end select
 
    contains

@@ -46,8 +46,9 @@ contains
       call look_at_temperature(settings, varied, remarks)
       if (.not. has_group(settings, "heat")) return
       if (any(varied == "heat.inlet_law") .or. any(varied == "heat.contact")) return
-      if (get_word(settings, "heat", "inlet_law") == "none" .and. get_word(settings, "heat", "contact") == "none") &
-         & call add_line(remarks, "&heat has no effect: inlet_law and contact are both 'none'")
+      if (get_word(settings, "heat", "inlet_law") == "none" .and. get_word(settings, "heat", "contact") == "none") then
+         call add_line(remarks, "&heat has no effect: inlet_law and contact are both 'none'")
+      end if
    end subroutine list_odd_pairs
 
    !> The ring is made of something, and is a part of the finger, whose mass is where the finger is.
