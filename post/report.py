@@ -25,7 +25,7 @@ from figures import draw  # noqa: E402
 from layout import Layout  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, opened, read_result, text_of  # noqa: E402
-from table import COLUMNS, column_of, plain  # noqa: E402
+from table import COLUMNS, column_of, plain, worst_of_lobes  # noqa: E402
 from units import key_words, unit_words, with_unit  # noqa: E402
 
 SHOWN = ["mean_torque", "mean_slip", "pressure", "film_ratio", "friction_sources", "drive_torque", "slip"]
@@ -86,8 +86,10 @@ def table_of(result):
     cases = [case for case in cases if case not in failed]
     columns = [[with_unit(key_words(key, quantity.units), unit_words(quantity.units)), *(plain(result.value_of(key, case)) for case in cases)]
                for key, quantity in result.sweep.items()]
-    columns += [column_of(result, name, [[case] for case in cases], '', words, unit) for name, words, unit in COLUMNS if name in result.summary]
+    worst, line = worst_of_lobes(result)
+    columns += [column_of(worst, name, [[case] for case in cases], '', words, unit) for name, words, unit in COLUMNS if name in result.summary]
     text = rows_to_html([column[0] for column in columns], list(zip(*(column[1:] for column in columns))))
+    text += f"<p>{line}</p>" if line else ""
     return text + (f"<p>and {result.cases - MOST_ROWS} more cases</p>" if result.cases > MOST_ROWS else "")
 
 

@@ -4,7 +4,7 @@
 Usage: post/table.py FILE [--columns NAME,NAME,...] [--cases WHICH]... [--over KEY,... [--take WHAT]] [--rows N | --all]
 
 Columns are swept keys first, then scalars of the summary: by default mean friction torque of each source, mean slip ratio, peak
-Hertz pressure and smallest film. Units stand in the headings and suit the values, rotational speeds are in rev/min; three
+Hertz pressure and smallest film, these three of the worst lobe shape where a case has several. Units stand in the headings and suit the values, rotational speeds are in rev/min; three
 significant figures, whole numbers in full. With `--over` the cases that differ in these keys only, as speeds of one design, make one
 row, with the largest, smallest or mean value of each column, or its range. Cases that are no grid, and chosen ones, have their number
 in the first column. Exit code 2 where the file or a name cannot be used.
@@ -13,6 +13,7 @@ in the first column. Exit code 2 where the file or a name cannot be used.
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import difflib
 import re
 import sys
@@ -44,6 +45,8 @@ COLUMNS = [
     ('min_film_thickness_min', 'smallest film', 'um'),
 ]
 MOST_ROWS = 50
+# Statistic and series in the name of a scalar; of another lobe shape than the first the series begins with `lobe_2_`
+SCALAR = re.compile(r'(min|max|mean)_(.+)')
 # Zero where contact is lost: there is no film, which is not a thin one
 SMALLEST_FILM = re.compile(r'min_(.*_)?film_(thickness_min|thickness_central|ratio)$')
 TAKEN = {'largest': np.max, 'smallest': np.min, 'mean': np.mean}
@@ -53,6 +56,25 @@ RANGE = 'range'
 def plain(value) -> str:
     """A swept value as a deck would have it."""
     return f'{value:g}' if isinstance(value, float) else str(value)
+
+
+def worst_of_lobes(result):
+    """The result with the worst of all lobe shapes in the usual scalars, and a line that says so, empty where there is one shape.
+
+    The worst is the smallest of what is smallest, else the largest in magnitude.
+    """
+    worst, headings = {}, []
+    for name, heading, _ in COLUMNS:
+        statistic, series = found.groups() if (found := SCALAR.fullmatch(name)) else ('', '')
+        others = [other for other in result.summary if re.fullmatch(rf'{statistic}_lobe_\d+_{series}', other)]
+        if name not in result.summary or not others:
+            continue
+        values = np.array([result.scalar(each).values for each in (name, *others)])
+        place = np.argmin(values, axis=0) if statistic == 'min' else np.argmax(np.abs(values), axis=0)
+        worst[name] = dataclasses.replace(result.summary[name], values=np.take_along_axis(values, place[None], 0)[0])
+        headings.append(heading)
+    line = f'{", ".join(headings)}: the worst of all lobe shapes; scalars of the summary have those of each.' if headings else ''
+    return dataclasses.replace(result, summary={**result.summary, **worst}), line
 
 
 def groups_over(result, cases, over) -> list[list[int]]:
@@ -105,6 +127,7 @@ def range_of(heading, quantity, groups, unit) -> list[str]:
 def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -> str:
     """The table as Markdown, of the first so many rows, and lines on what is not in it."""
     usual = {name: (name, heading, unit) for name, heading, unit in COLUMNS}
+    result, line = worst_of_lobes(result) if columns is None else (result, '')
     chosen = [c for c in COLUMNS if c[0] in result.summary] if columns is None else \
         [usual.get(name, (name, None, None)) if take == RANGE else (name, None, None) for name in columns]
     if not chosen:
@@ -125,7 +148,8 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
     made += [column_of(result, name, shown, take if over else '', heading, unit) for name, heading, unit in chosen]
     head, *body = (list(row) for row in zip(*made))
     lines = ['| ' + ' | '.join(row) + ' |' for row in (head, ['---'] * len(head), *body)]
-    return '\n'.join(lines + left_out(result, groups, len(shown), 'rows' if over else 'cases'))
+    notes = ([line] if line else []) + left_out(result, groups, len(shown), 'rows' if over else 'cases')
+    return '\n'.join(lines + ([''] + notes if notes else []))
 
 
 def left_out(result, groups, count, what) -> list[str]:
@@ -136,7 +160,7 @@ def left_out(result, groups, count, what) -> list[str]:
     shown = {case for group in groups[:count] for case in group}
     failed = [(case, reason) for case, reason in result.failed_cases() if case in shown]
     lines += [f'Case {case} has no result: {reason}'.rstrip(': ') for case, reason in failed]
-    return [''] + lines if lines else []
+    return lines
 
 
 def main(arguments=None) -> int:

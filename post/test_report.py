@@ -36,6 +36,15 @@ def test_page_stands_alone(page):
     assert len(re.findall(r"<tr><td>", text)) >= 9
 
 
+def test_page_shows_the_worst_lobe_shape(tmp_path):
+    source = write_result(tmp_path / "nine.h5")
+    with h5py.File(source, "a") as file:
+        file["summary/mean_lobe_2_slip_ratio"] = file["summary/mean_slip_ratio"][()] * 0.0 + 0.777
+        file["summary/mean_lobe_2_slip_ratio"].attrs["units"] = "1"
+    text = page_of(read_result(source))
+    assert "77.7" in text and "mean slip: the worst of all lobe shapes" in text
+
+
 def test_page_is_written_beside_the_file_and_errors_are_one_line(tmp_path, capsys):
     source = write_result(tmp_path / "nine.h5")
     assert main([str(source)]) == 0 and (tmp_path / "nine.html").exists()

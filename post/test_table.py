@@ -149,3 +149,30 @@ def test_a_row_with_a_case_without_result_has_no_number(tmp_path, capsys):
     assert [row[2] for row in body][1] == "-" and all(float(row[2]) >= 0 for row in (body[0], body[2]))
     assert main([str(path), "--over", "colour"]) == 2
     assert "'colour' is not one of the swept keys" in capsys.readouterr().err
+
+
+def test_several_lobe_shapes_show_the_worst(grid, capsys):
+    scalars = {"min_film_thickness_min": ("m", 1e-7), "min_lobe_2_film_thickness_min": ("m", 0.0),
+               "max_lobe_2_hertz_pressure": ("Pa", 2.01e9), "mean_lobe_2_slip_ratio": ("1", 0.0)}
+    head, first, *_ = rows(table_of(read_result(grid)))
+    before = dict(zip(head, first))
+    with h5py.File(grid, "a") as file:
+        for name, (unit, value) in scalars.items():
+            file[f"summary/{name}"] = np.full(60, value)
+            file[f"summary/{name}"].attrs["units"] = unit
+    assert main([str(grid)]) == 0
+    text = capsys.readouterr().out
+    head, first, *_ = rows(text)
+    after = dict(zip(head, first))
+    # no film where the second shape loses contact
+    assert [value for name, value in after.items() if name.startswith("smallest film")] == ["-"]
+    assert after["peak pressure [GPa]"] == "2.01" and after["mean slip [%]"] == before["mean slip [%]"]
+    assert "mean slip, peak pressure, smallest film: the worst of all lobe shapes" in text
+    # asked for by name, a scalar is that of its shape
+    assert main([str(grid), "--columns", "max_hertz_pressure,max_lobe_2_hertz_pressure"]) == 0
+    text = capsys.readouterr().out
+    assert rows(text)[1][2:] == ["0.975", "2.01"] and "lobe shapes" not in text
+
+
+def test_one_lobe_shape_says_nothing_of_several(grid):
+    assert "lobe shapes" not in table_of(read_result(grid))

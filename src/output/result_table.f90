@@ -1,8 +1,9 @@
 !> The results of a file as a table for the screen: one line for each case, the numbers that are asked for first.
 !>
-!> In: a result file. Out: lines of text.
+!> In: a result file. Out: lines of text. Slip, pressure and film of a case with several lobe shapes are those of the worst one.
 module camroller_result_table
    use camroller_kinds, only : wp
+   use camroller_catalogue, only : lobe_prefix
    use camroller_error, only : error_t
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_object, only : hdf5_object_t
@@ -18,8 +19,9 @@ module camroller_result_table
 
    !> One column of the table
    type :: column_t
-      !> Scalar of the summary
-      character(len=name_length + 5) :: scalar
+      !> Scalar of the summary: what of a series, its name
+      character(len=5) :: statistic
+      character(len=name_length) :: series
       !> Heading and unit
       character(len=14) :: heading
       character(len=5) :: unit
@@ -47,6 +49,7 @@ contains
       type(table_t) :: table
       character(len=member_length), allocatable :: swept(:)
       type(column_t), allocatable :: columns(:)
+      character(len=:), allocatable :: worst
       ! Number of cases
       integer, allocatable :: cases(:)
       ! Status of the cases [-]
@@ -54,6 +57,7 @@ contains
       integer :: i, k
 
       text = ""
+      worst = ""
       call open_result(file, path, cases, error)
       if (.not. allocated(error)) call list_members(file, "/sweep", swept, error)
       if (.not. allocated(error)) call read_numbers(file, "/summary/status", [0], cases, status, error)
@@ -64,7 +68,7 @@ contains
             if (i <= size(swept)) then
                call read_column(file, "/sweep/"//trim(swept(i)), table, i, error)
             else
-               call read_column(file, "/summary/"//trim(columns(i - size(swept))%scalar), table, i, error)
+               call read_worst(file, columns(i - size(swept)), table, i, worst, error)
             end if
             if (allocated(error)) exit
          end do
@@ -76,7 +80,59 @@ contains
          if (index(table%names(k)%text, trim(table%units(k)%text)) > 0 .or. table%units(k)%text == "1") table%units(k)%text = ""
       end do
       call put_lines(table, size(swept), columns, status, text)
+      if (worst /= "") text = text//new_line("a")//"  "//worst//": the worst of all lobe shapes; "// &
+         & "'camroller export --summary' has those of each"
    end subroutine write_result_table
+
+   !> Read a scalar, of several lobe shapes the worst: the smallest of what is smallest, else the largest in magnitude.
+   subroutine read_worst(file, column, table, position, worst, error)
+      !> The file
+      type(hdf5_object_t), intent(in) :: file
+      !> The scalar
+      type(column_t), intent(in) :: column
+      !> The table
+      type(table_t), intent(inout) :: table
+      !> Its column
+      integer, intent(in) :: position
+      !> Headings of such columns of several lobe shapes; out: with this one where it is one
+      character(len=:), allocatable, intent(inout) :: worst
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Values of another lobe shape [unit of the scalar]
+      real(wp), allocatable :: others(:)
+      integer :: lobe
+
+      call read_column(file, path_of(column, 1), table, position, error)
+      if (allocated(error)) return
+      lobe = 2
+      do while (has_member(file, path_of(column, lobe)))
+         call read_numbers(file, path_of(column, lobe), [0], [size(table%numbers, 1)], others, error)
+         if (allocated(error)) return
+         associate (values => table%numbers(:, position))
+            if (column%statistic == "min_") then
+               values = min(values, others)
+            else
+               values = merge(others, values, abs(others) > abs(values))
+            end if
+         end associate
+         if (lobe == 2 .and. worst /= "") worst = worst//", "
+         if (lobe == 2) worst = worst//trim(column%heading)
+         lobe = lobe + 1
+      end do
+   end subroutine read_worst
+
+   !> Path of a scalar in a result file.
+   function path_of(column, lobe) result(path)
+      !> The scalar
+      type(column_t), intent(in) :: column
+      !> Lobe shape, from 1; what is of the camshaft counts as the first's
+      integer, intent(in) :: lobe
+      !> The path
+      character(len=:), allocatable :: path
+
+      path = "/summary/"//trim(column%statistic)//trim(lobe_prefix(lobe))//trim(column%series)
+   end function path_of
 
    !> Columns of the table: of those that are asked for first, the ones that the file has.
    function shown_columns(file) result(columns)
@@ -87,16 +143,16 @@ contains
 
       integer :: i
 
-      columns = [(column_t("mean_"//torque_series(i), torque_list(i)%heading, "N mm", 1.0e3_wp), i=1, torque_count), &
-         & column_t("mean_torque_friction", "all friction", "N mm", 1.0e3_wp), &
-         & column_t("fmep_friction", "fmep", "kPa", 1.0e-3_wp), &
-         & column_t("mean_slip_ratio", "mean slip", "%", 1.0e2_wp), &
-         & column_t(merge("max_axial_pressure_max", "max_hertz_pressure    ", &
+      columns = [(column_t("mean_", torque_series(i), torque_list(i)%heading, "N mm", 1.0e3_wp), i=1, torque_count), &
+         & column_t("mean_", "torque_friction", "all friction", "N mm", 1.0e3_wp), &
+         & column_t("fmep_", "friction", "fmep", "kPa", 1.0e-3_wp), &
+         & column_t("mean_", "slip_ratio", "mean slip", "%", 1.0e2_wp), &
+         & column_t("max_", merge("axial_pressure_max", "hertz_pressure    ", &
          & has_member(file, "/summary/max_axial_pressure_max")), "peak pressure", "GPa", 1.0e-9_wp), &
-         & column_t("min_film_thickness_min", "smallest film", "um", 1.0e6_wp), &
-         & column_t("min_film_ratio", "film ratio", "1", 1.0_wp)]
+         & column_t("min_", "film_thickness_min", "smallest film", "um", 1.0e6_wp), &
+         & column_t("min_", "film_ratio", "film ratio", "1", 1.0_wp)]
       columns = pack(columns, columns%heading /= "")
-      columns = pack(columns, [(has_member(file, "/summary/"//trim(columns(i)%scalar)), i=1, size(columns))])
+      columns = pack(columns, [(has_member(file, path_of(columns(i), 1)), i=1, size(columns))])
    end function shown_columns
 
    !> The lines: heading, units, one for each case that is shown, and how many are not.
@@ -158,7 +214,7 @@ contains
             words = "missing"
          else if (table%has_words(column)) then
             words = table%words(row, column)%text
-         else if (column > keys .and. index(columns(max(1, column - keys))%scalar, "min_film") == 1 .and. &
+         else if (column > keys .and. index(columns(max(1, column - keys))%series, "film_") == 1 .and. &
             & .not. table%numbers(row, column) > 0.0_wp) then
             ! Cam and roller part, and there is no film to speak of
             words = "-"

@@ -106,6 +106,24 @@ def test_run_ends_with_a_table_of_results(camroller, tmp_path):
     assert run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--quiet").stdout == ""
 
 
+def test_the_table_has_the_worst_lobe_shape(camroller, tmp_path):
+    deck = ["decks/four_cylinder.nml", "--no-sweep", "--set", "second_lift.max_lift_mm=4", "--set", "second_lift.opening_half_angle_deg=45"]
+    text = run(camroller, "run", *deck, "-o", tmp_path / "a.h5").stdout
+    note = "mean slip, peak pressure, smallest film, film ratio: the worst of all lobe shapes"
+    assert note in text
+    with h5py.File(tmp_path / "a.h5") as file:
+        of = {name: values[0] for name, values in file["summary"].items() if values.dtype.kind == "f"}
+    shown = list(map(float, text.splitlines()[2].split()[-4:]))
+    # of this deck the first shape has the larger pressure, the second one the rest; three digits are printed
+    assert of["max_lobe_2_hertz_pressure"] < of["max_hertz_pressure"] and of["min_lobe_2_film_ratio"] < 0.9 * of["min_film_ratio"]
+    assert shown == pytest.approx([1e2 * of["mean_lobe_2_slip_ratio"], 1e-9 * of["max_hertz_pressure"],
+                                   1e6 * of["min_lobe_2_film_thickness_min"], of["min_lobe_2_film_ratio"]], rel=5e-3)
+    # at this speed the second shape alone loses contact: there is no film
+    text = run(camroller, "run", *deck, "--set", "operating_point.speed_rpm=6000", "-o", tmp_path / "b.h5").stdout
+    assert text.splitlines()[2].split()[-2:] == ["-", "-"]
+    assert note not in run(camroller, "run", "decks/thesis.nml", "--no-sweep", "-o", tmp_path / "c.h5").stdout
+
+
 def test_point_selects_one_case_of_a_sweep(camroller, tmp_path):
     run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "all.h5", "--quiet")
     run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "one.h5", "--quiet", "--point", "speed_rpm=600",
