@@ -71,6 +71,8 @@ module camroller_journal
       character(len=name_length) :: journal_motion = journal_motion_names(motion_quasi_steady)
       !> Does each bearing have series of its own?
       logical :: by_bearing = .false.
+      !> Do they have friction? Where not, they are there for their cams alone
+      logical :: has_friction = .true.
    end type cam_bearings_t
 
    !> A bearing at a speed, ready for any load

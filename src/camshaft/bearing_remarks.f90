@@ -56,8 +56,8 @@ contains
       type(thin_films_t) :: films(2)
 
       call judge_widths(solved, remarks)
-      if (.not. allocated(solved%case%cam_bearings)) return
-      associate (bearings => solved%case%cam_bearings, shaft => solved%shaft)
+      if (.not. allocated(solved%shaft%bearings)) return
+      associate (bearings => solved%shaft%bearings, shaft => solved%shaft)
          films(1)%limit = usual_roughness
          if (allocated(shaft%touch)) films(1)%limit = thinnest_film*shaft%touch%roughness
          if (has_orbits(solved%case) .and. moves_like_finite(shaft%journal)) films(2)%limit = (1.0_wp - largest_fitted) &
@@ -81,8 +81,8 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      if (allocated(solved%case%cam_bearings)) then
-         associate (bearings => solved%case%cam_bearings)
+      if (allocated(solved%shaft%bearings)) then
+         associate (bearings => solved%shaft%bearings)
             call judge("cam_bearings.law", bearings%law, bearings%width, bearings%diameter, "these have")
          end associate
       end if

@@ -14,7 +14,7 @@ module camroller_shaft
    use camroller_cycle, only : cycle_t, load_stops, state_at
    use camroller_lift, only : is_at_rest
    use camroller_lobe_curve, only : lobe_curve_t, contact_near, curve_at, curve_values, cam_values
-   use camroller_effect_list, only : effect_bearing_heat, effect_orbit, has_effect
+   use camroller_effect_list, only : effect_bearing_heat, effect_bearings, effect_orbit, has_effect
    use camroller_events, only : cycle_stops
    use camroller_journal_orbit, only : orbit_t, place_at
    use camroller_refined_curve, only : follow_steps, refine_curve
@@ -44,7 +44,7 @@ module camroller_shaft
       real(wp), allocatable :: directions(:, :)
       !> Interval of the cycle where each cam's search starts
       integer, allocatable :: hints(:)
-      !> Bearings; allocated where the case has them
+      !> Bearings; allocated where the case has them, with friction
       type(cam_bearings_t), allocatable :: bearings
       type(journal_t), allocatable :: journal
       !> Part of each cam's force that each bearing of its camshaft carries, shape (bearing, cam) [-]; loads by the pull of belt or
@@ -110,7 +110,6 @@ contains
          return
       end if
       cams = size(case%cam_bearings%cam_positions)
-      shaft%bearings = case%cam_bearings
       shaft%phases = case%cam_bearings%cam_phases
       shaft%lobes = case%cam_bearings%cam_lobes
       shaft%count = camshaft_number(case)
@@ -123,6 +122,8 @@ contains
       shaft%hints = 1
       call find_twins(shaft)
       shaft%has_torque = torque_rows(case)
+      if (.not. has_effect(case, effect_bearings)) return
+      shaft%bearings = case%cam_bearings
       call share_loads(shaft, case)
       allocate (shaft%journal)
       call set_journal(shaft, viscosity, speed, error)

@@ -17,7 +17,7 @@ module camroller_effect_list
    implicit none
    private
 
-   public :: effect_names, effect_count, decision_t, choice_t, leave_out, leave_all_but, has_effect
+   public :: effect_names, effect_count, decision_t, choice_t, leave_out, leave_all_but, has_effect, has_single_cam
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
@@ -226,13 +226,33 @@ contains
       end select
    end subroutine leave_bearing_part_out
 
-   !> Leave the camshaft bearings out, with what needs them.
+   !> Are there camshaft bearings, and between them one cam of the first lobe shape at phase 0, as a case without them has it?
+   pure function has_single_cam(case) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> True for such a cam
+      logical :: has
+
+      has = .false.
+      if (.not. allocated(case%cam_bearings)) return
+      if (size(case%cam_bearings%cam_positions) /= 1) return
+      has = case%cam_bearings%cam_lobes(1) == 1 .and. abs(case%cam_bearings%cam_phases(1)) <= 0.0_wp
+   end function has_single_cam
+
+   !> Leave the camshaft bearings out, with what needs them. Cams stay: a single one is that of a case without bearings, others are
+   !> kept with bearings that have no friction.
    pure subroutine leave_bearings_out(variant)
-      !> In: a case; out: with one cam of the first lobe shape
+      !> In: a case; out: with the same cams
       type(case_t), intent(inout) :: variant
 
-      if (allocated(variant%cam_bearings)) deallocate (variant%cam_bearings)
-      if (allocated(variant%second_lift)) deallocate (variant%second_lift)
+      if (has_single_cam(variant)) then
+         deallocate (variant%cam_bearings)
+         if (allocated(variant%second_lift)) deallocate (variant%second_lift)
+      else if (allocated(variant%cam_bearings)) then
+         variant%cam_bearings%has_friction = .false.
+         variant%cam_bearings%by_bearing = .false.
+         variant%cam_bearings%journal_motion = journal_motion_names(motion_quasi_steady)
+      end if
       if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
       if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
       if (allocated(variant%bearing_heat)) deallocate (variant%bearing_heat)
@@ -284,7 +304,7 @@ contains
       case (effect_guide)
          has = allocated(case%valve_guide)
       case (effect_bearings)
-         has = allocated(case%cam_bearings)
+         if (allocated(case%cam_bearings)) has = case%cam_bearings%has_friction
       case (effect_gas)
          has = allocated(case%gas_force)
       case (effect_rolling)

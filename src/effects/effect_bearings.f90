@@ -18,7 +18,7 @@ module camroller_effect_bearings
    implicit none
    private
 
-   public :: has_single_cam, mean_bearing_torque
+   public :: mean_bearing_torque
 
    !> Error of an orbit in a step, over its smallest film [-]; error of a rise of temperature [K]; the longest piece of a mean, four
    !> angles of which stand for two of the survey [rad]
@@ -33,19 +33,6 @@ module camroller_effect_bearings
    end type surveyed_load_t
 
 contains
-
-   !> Are there camshaft bearings, and between them one cam of the first lobe shape at phase 0, as a case without them has it?
-   pure function has_single_cam(case) result(has)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> True for such a cam
-      logical :: has
-
-      has = .false.
-      if (.not. allocated(case%cam_bearings)) return
-      if (size(case%cam_bearings%cam_positions) /= 1) return
-      has = case%cam_bearings%cam_lobes(1) == 1 .and. abs(case%cam_bearings%cam_phases(1)) <= 0.0_wp
-   end function has_single_cam
 
    !> Mean torque of the bearings of a single cam, and of seals and drive.
    subroutine mean_bearing_torque(case, model, survey, over_turn, mean, error)

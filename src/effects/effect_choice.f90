@@ -12,9 +12,9 @@ module camroller_effect_choice
    use camroller_names, only : find_name
    use camroller_case, only : case_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
       & quantity_slip
-   use camroller_effect_bearings, only : has_single_cam, mean_bearing_torque
+   use camroller_effect_bearings, only : mean_bearing_torque
    use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_dynamics, effect_spin, &
-      & has_effect, is_part_of_train, leave_out, needs_bearings
+      & has_effect, has_single_cam, is_part_of_train, leave_out, needs_bearings
    use camroller_effect_reasons, only : find_reason, find_train_reason
    use camroller_effect_survey, only : survey_t, response_t, make_survey, respond
    use camroller_effect_train, only : compare_trains, estimate_train, train_change_t, train_load_t
@@ -31,6 +31,9 @@ module camroller_effect_choice
    real(wp), parameter :: margin = 5.0_wp
    !> Changes beyond this are too large to be estimated from small ones [-]
    real(wp), parameter :: largest_estimate = 1.0_wp
+   !> Why nothing is said of the bearings of several cams
+   character(len=*), parameter :: not_surveyed = &
+      & "not estimated for several cams, or one that is not of the first lobe shape at phase 0"
 
    !> Mean torque for losses
    type :: mean_torque_t
@@ -337,7 +340,7 @@ contains
       end do
    end subroutine find_responses
 
-   !> Camshaft bearings: they take torque and do nothing else, unless they carry several cams.
+   !> Camshaft bearings: they take torque and do nothing else. Several cams are not surveyed.
    subroutine weigh_bearings(case, surveys, torque, decision)
       !> The case
       type(case_t), intent(in) :: case
@@ -349,7 +352,7 @@ contains
       type(decision_t), intent(inout) :: decision
 
       if (.not. has_single_cam(case)) then
-         decision%reason = "not estimated: without them there is one cam, of the first lobe shape, at phase 0; here is another"
+         decision%reason = not_surveyed
          return
       end if
       decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
@@ -380,7 +383,7 @@ contains
 
       decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
       if (.not. has_single_cam(case)) then
-         decision%reason = "not estimated for several cams, or one that is not of the first lobe shape at phase 0"
+         decision%reason = not_surveyed
       else if (allocated(torque%trouble)) then
          decision%reason = "not estimated: "//torque%trouble
       else if (.not. allocated(surveys(1)%trouble)) then

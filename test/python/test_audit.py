@@ -51,6 +51,41 @@ def test_an_audit_has_a_run_without_each_effect(camroller, folder):
         assert left_out["without", "asperity"] == 1 and left_out["without", "needle_bearing"] == 0
 
 
+def test_an_audit_keeps_all_cams_without_their_bearings(camroller, folder):
+    """Runs of one cam and of two that do the same: torques of two are twice those of one, effect by effect."""
+    tables = []
+    for name, cams in (("single", "30"), ("double", "20, 40")):
+        result = start(camroller, "audit", "one.nml", "--repeats", "1", "--set", f"cam_bearings.cam_positions_mm={cams}",
+                       "-o", f"{name}.h5", folder=folder)
+        assert result.returncode == 0, result.stderr
+        with h5py.File(folder / f"{name}.h5") as file:
+            table = {column: file["study/audit"][column][()] for column in ("mean_torque", "minimum_film", "slip", "status")}
+            runs = list(zip(words(file["study/audit/run"]), words(file["study/audit/effect"])))
+        assert (table["status"] == 0).all()
+        tables.append({run: [table[name][row] for name in ("mean_torque", "minimum_film", "slip")] for row, run in enumerate(runs)})
+    single, double = tables
+    without = [run for run in single if run[0] in ("none", "alone") or run == ("without", "cam_bearings")]
+    assert len(without) > 4
+    for run in without:
+        # twice one and the same number, up to rounding
+        assert double[run][0] == pytest.approx(2 * single[run][0], rel=1e-12), run
+        assert double[run][1:] == single[run][1:], run
+
+
+def test_an_audit_takes_the_friction_of_bearings_from_two_lobe_shapes(camroller, tmp_path):
+    deck = [str(ROOT / "decks/three_cam_head.nml"), "--set", "operating_point.speed_rpm=600"]
+    for command in (["audit", *deck, "--repeats", "1", "-o", "audit.h5"], ["run", *deck, "-o", "run.h5"]):
+        result = start(camroller, *command, folder=tmp_path)
+        assert result.returncode == 0, result.stderr
+    with h5py.File(tmp_path / "audit.h5") as file, h5py.File(tmp_path / "run.h5") as whole:
+        table = file["study/audit"]
+        row = list(zip(words(table["run"]), words(table["effect"]))).index(("without", "cam_bearings"))
+        friction, bearings = (whole[f"summary/mean_torque_{name}"][0] for name in ("friction", "bearings"))
+        # bearings change no other torque
+        assert table["change_mean_torque"][row] == pytest.approx(-bearings / friction, rel=1e-9)
+        assert table["change_minimum_film"][row] == 0 and table["change_slip"][row] == 0
+
+
 def test_file_has_the_choice_of_effects_and_no_numbers_where_an_effect_is_left_out(camroller, folder):
     result = start(camroller, "run", "two.nml", "--set", "effects.select=needed", folder=folder)
     assert result.returncode == 0, result.stderr

@@ -25,7 +25,7 @@ contains
          new_unittest("with energy 'source' the needle bearing changes no bit of the load", test_needle), &
          new_unittest("an absent effect has no series and no scalar", test_absent), &
          new_unittest("a case run after other cases has the same bits as alone", test_kept), &
-         new_unittest("bearings of a single cam with the second lobe shape are kept, since without them the cam has the first", &
+         new_unittest("bearings of a single cam with the second lobe shape are not surveyed, and kept", &
             & test_lobe), &
          new_unittest("leaving out the bearings leaves out the second lobe shape", test_without_bearings) &
          ]
