@@ -61,7 +61,7 @@ module camroller_flexible_measures
    !> The measures; those of the adjuster last
    type(measure_t), parameter :: measures(*) = [ &
       & measure_t("dynamic_load_max", "N", "largest contact load"), &
-      & measure_t("dynamic_load_max_angle", "rad", "cam angle of the largest contact load, from full lift"), &
+      & measure_t("dynamic_load_max_angle", "rad", "cam angle of the largest contact load; full lift is at 180 deg"), &
       & measure_t("dynamic_load_min", "N", "smallest contact load with the valve in the upper three quarters of its lift"), &
       & measure_t("lift_error_min", "m", "smallest lift less that of a rigid train"), &
       & measure_t("lift_error_max", "m", "largest lift less that of a rigid train"), &
