@@ -131,6 +131,8 @@ def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
     ("sliding_joints", "", ["guide_side_load.guide_length_mm=60"], ["= 60 and valve_guide.length_mm = 36 are of the same guide"]),
     ("dynamics", "", ["dynamics.lash_mm=0.2"], ["spring.base_circle_load_N = 64 does not load the flexible train"]),
     ("four_cylinder", "", ["engine.full_lift_deg=110,-110"], ["full_lift_deg = 110: a valve would be wide open within 120 degrees"]),
+    ("four_cylinder", "&gas_force table = 'tables/cylinder_pressure.txt' pressure_unit = 'bar' valve_diameter_mm = 28 /", [],
+     ["&gas_force presses the valves of both lobe shapes by the same table"]),
     ("four_cylinder", "", ["cam_bearings.cam_cylinders=1,1,1,1,2,2,2,2"], ["2 cylinders of 4 without a cam"]),
     ("four_cylinder", "", ["operating_point.speed_rpm=7000", "lubricant.hths_viscosity_mPa_s=3"], []),
     ("four_cylinder", "", ["lubricant.viscosity_at_40_degC_mm2_s=16", "lubricant.hths_viscosity_mPa_s=3.9"],
