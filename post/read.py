@@ -166,6 +166,12 @@ def text_columns(group):
     return {name: _quantity(data).values for name, data in group.items()}
 
 
+#: What else the program writes: a group of it, what it is, and the script that reads it
+OTHER_FILES = {"study/study": ("what `camroller study` has measured", "plot_study.py"),
+               "study/audit": ("what `camroller audit` has measured", "plot_audit.py"),
+               "ehl": ("the solved contacts of `camroller ehl`", "ehl.py")}
+
+
 def read_result(path, with_series=True):
     """Read a result file into memory; raise ResultError with one clear line if it is not one."""
     path = Path(path)
@@ -175,6 +181,9 @@ def read_result(path, with_series=True):
 
 def _read(path, file, with_series):
     if "series" not in file or ("cam_angle" not in file["series"] and "summary/status" not in file):
+        for group, (kind, script) in OTHER_FILES.items():
+            if group in file:
+                raise ResultError(f"{path}: {kind}, not the results of a run; post/{script} draws it")
         raise ResultError(f"{path}: not a result file of camroller (neither /series/cam_angle nor /summary/status)")
     if not any(int(np.ravel(file.attrs.get(name, 0))[0]) for name in ("complete", "missing_cases")):
         raise ResultError(f"{path}: not complete: the run that wrote it did not finish")

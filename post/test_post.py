@@ -311,6 +311,18 @@ def test_a_file_that_cannot_be_used_gives_one_line_and_code_2(nine, capsys, spoi
     assert expected in message and str(nine) in message and message.count("\n") == 1
 
 
+@pytest.mark.parametrize("group, words", [
+    ("study/study", "`camroller study` has measured, not the results of a run; post/plot_study.py draws it"),
+    ("study/audit", "`camroller audit` has measured, not"),
+    ("ehl", "post/ehl.py draws it"),
+])
+def test_a_file_of_another_command_names_its_script(tmp_path, capsys, group, words):
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file.create_group(group)
+    assert main([str(tmp_path / "other.h5")]) == 2
+    assert words in capsys.readouterr().err
+
+
 def test_a_series_of_another_shape_is_refused(nine):
     with h5py.File(nine, "a") as file:
         file["series/odd"] = np.zeros((9, 3))
