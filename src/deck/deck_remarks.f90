@@ -43,14 +43,20 @@ contains
       !> Sentences
       type(line_t), allocatable, intent(out) :: remarks(:)
 
-      character(len=2*key_length) :: varied(size(deck%sweep%axes))
-      integer :: i
+      ! Keys that vary, and those that have a remark of their own
+      character(len=2*key_length), allocatable :: told(:)
+      integer :: axes, i
 
       call list_number_remarks(deck, remarks)
-      do i = 1, size(varied)
-         varied(i) = deck%sweep%axes(i)%key
+      axes = size(deck%sweep%axes)
+      allocate (told(axes + size(remarks)))
+      do i = 1, axes
+         told(i) = deck%sweep%axes(i)%key
       end do
-      call list_odd_pairs(deck%settings, varied, remarks)
+      do i = 1, size(remarks)
+         told(axes + i) = remarks(i)%text(:index(remarks(i)%text//" ", " ") - 1)
+      end do
+      call list_odd_pairs(deck%settings, told(:axes), told, remarks)
       call remark_viscosity(deck, remarks)
       call remark_hths(deck, remarks)
       call remark_temperature(deck, remarks)
