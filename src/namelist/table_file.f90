@@ -100,6 +100,7 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
+      character(len=:), allocatable :: words
       integer :: first, last, length, columns, status
 
       row = 0.0_wp
@@ -131,7 +132,9 @@ contains
       end do
       has_row = columns == 2
       if (columns == 0 .or. columns == 2) return
-      call add_mistake(mistakes, "a row has two columns, not "//integer_text(columns), number, 0, 0, path, line)
+      words = ""
+      if (index(line(:length), ",") > 0) words = "; a comma parts columns, decimals have a point"
+      call add_mistake(mistakes, "a row has two columns, not "//integer_text(columns)//words, number, 0, 0, path, line)
    end subroutine read_row
 
    !> Is a line a heading: are its first words no numbers, not even wrong ones?

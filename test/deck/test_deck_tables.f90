@@ -153,7 +153,9 @@ contains
       call expect(error, first_rows//"175 1e999"//n//last_rows, ":7:5: '1e999' is no finite number")
       call expect(error, first_rows//"175 nan"//n//last_rows, ":7:5: 'nan' is no finite number")
       call expect(error, first_rows//"175"//n//last_rows, ":7: a row has two columns, not 1")
-      call expect(error, first_rows//"175 3 4"//n//last_rows, ":7: a row has two columns, not 3")
+      call expect(error, first_rows//"175 3 4"//n//last_rows, ":7: a row has two columns, not 3"//n)
+      call expect(error, first_rows//"175 3,4"//n//last_rows, ":7: a row has two columns, not 3; a comma parts columns, "// &
+         & "decimals have a point")
       call expect(error, "120 1"//n//first_rows//last_rows, ":1: the lift must start at zero")
       call expect(error, first_rows//last_rows//"240 1"//n, ":14: the lift must end at zero")
       call expect(error, first_rows//last_rows//"240 -1"//n//"250 0", ":14: negative lift")
