@@ -44,19 +44,19 @@ contains
       type(line_t), allocatable, intent(out) :: remarks(:)
 
       ! Keys that vary, and those that have a remark of their own
-      character(len=2*key_length), allocatable :: told(:)
+      character(len=2*key_length), allocatable :: left_out(:)
       integer :: axes, i
 
       call list_number_remarks(deck, remarks)
       axes = size(deck%sweep%axes)
-      allocate (told(axes + size(remarks)))
+      allocate (left_out(axes + size(remarks)))
       do i = 1, axes
-         told(i) = deck%sweep%axes(i)%key
+         left_out(i) = deck%sweep%axes(i)%key
       end do
       do i = 1, size(remarks)
-         told(axes + i) = remarks(i)%text(:index(remarks(i)%text//" ", " ") - 1)
+         left_out(axes + i) = remarks(i)%text(:index(remarks(i)%text//" ", " ") - 1)
       end do
-      call list_odd_pairs(deck%settings, told(:axes), told, remarks)
+      call list_odd_pairs(deck%settings, left_out(:axes), left_out, remarks)
       call remark_viscosity(deck, remarks)
       call remark_hths(deck, remarks)
       call remark_temperature(deck, remarks)

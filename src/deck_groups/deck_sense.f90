@@ -1,7 +1,7 @@
 !> Decks: values that are each possible, and together belong to no train.
 !>
-!> In: settings, keys that vary or are told of already. Out: a sentence for each such pair. Nothing is refused for them; values that
-!> no train can have at all are mistakes of their own groups.
+!> In: settings, keys that vary or have a remark already. Out: a sentence for each such pair. Nothing is refused for them; values
+!> that no train can have at all are mistakes of their own groups.
 module camroller_deck_sense
    use camroller_kinds, only : wp, pi, degree
    use camroller_mistakes, only : add_line, line_t
@@ -28,37 +28,37 @@ module camroller_deck_sense
 contains
 
    !> All of them.
-   subroutine list_odd_pairs(settings, varied, told, remarks)
+   subroutine list_odd_pairs(settings, varied, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys that vary, as `group.key`
       character(len=*), intent(in) :: varied(:)
       !> Keys of which nothing is said: those that vary, and those that have a remark of their own
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
-      call compare_masses(settings, told, remarks)
-      call compare_roller_bearing(settings, told, remarks)
-      call compare_guide(settings, told, remarks)
-      call compare_viscosities(settings, told, remarks)
-      call compare_lash(settings, told, remarks)
-      call compare_boundary(settings, told, remarks)
-      call look_at_engine(settings, told, remarks)
+      call compare_masses(settings, left_out, remarks)
+      call compare_roller_bearing(settings, left_out, remarks)
+      call compare_guide(settings, left_out, remarks)
+      call compare_viscosities(settings, left_out, remarks)
+      call compare_lash(settings, left_out, remarks)
+      call compare_boundary(settings, left_out, remarks)
+      call look_at_engine(settings, left_out, remarks)
       call look_at_temperature(settings, varied, remarks)
       if (.not. has_group(settings, "heat")) return
-      if (any(told == "heat.inlet_law") .or. any(told == "heat.contact")) return
+      if (any(left_out == "heat.inlet_law") .or. any(left_out == "heat.contact")) return
       if (get_word(settings, "heat", "inlet_law") == "none" .and. get_word(settings, "heat", "contact") == "none") then
          call add_line(remarks, "&heat has no effect: inlet_law and contact are both 'none'")
       end if
    end subroutine list_odd_pairs
 
    !> The ring is made of something, and is a part of the finger, whose mass is where the finger is.
-   subroutine compare_masses(settings, told, remarks)
+   subroutine compare_masses(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
@@ -68,11 +68,11 @@ contains
       real(wp) :: density, gyration
       logical :: are_there
 
-      call get(settings, told, "roller.mass_kg masses.finger_kg", value, are_there)
+      call get(settings, left_out, "roller.mass_kg masses.finger_kg", value, are_there)
       if (are_there .and. value(2) > 0.0_wp .and. value(1) >= value(2)) call add_line(remarks, "roller.mass_kg = "// &
          & number_text(value(1), digits)//" is not below masses.finger_kg = "//number_text(value(2), digits)// &
          & ", which holds the roller too")
-      call get(settings, told, "roller.mass_kg roller.radius_mm roller.wall_thickness_mm mechanism.contact_width_mm", value, &
+      call get(settings, left_out, "roller.mass_kg roller.radius_mm roller.wall_thickness_mm mechanism.contact_width_mm", value, &
          & are_there)
       if (are_there) then
          density = value(1)/(pi*value(3)*(2.0_wp*value(2) - value(3))*value(4))
@@ -80,7 +80,7 @@ contains
             & number_text(value(1), digits)//": a ring of these radii, as wide as the contact, would have "// &
             & number_text(g_cm3*density, 2)//" g/cm^3; steel has 7.8")
       end if
-      call get(settings, told, "masses.finger_inertia_kg_m2 masses.finger_kg mechanism.pivot_to_pad_mm", value, are_there)
+      call get(settings, left_out, "masses.finger_inertia_kg_m2 masses.finger_kg mechanism.pivot_to_pad_mm", value, are_there)
       if (.not. are_there .or. .not. value(2) > 0.0_wp) return
       gyration = sqrt(value(1)/value(2))
       if (gyration > (1.0_wp + room)*value(3)) call add_line(remarks, "masses.finger_inertia_kg_m2 = "// &
@@ -89,11 +89,11 @@ contains
    end subroutine compare_masses
 
    !> Needles roll between pin and ring.
-   subroutine compare_roller_bearing(settings, told, remarks)
+   subroutine compare_roller_bearing(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
@@ -102,16 +102,16 @@ contains
       logical :: are_there, is_there
 
       if (.not. has_group(settings, "needle_drag")) return
-      if (has_group(settings, "needle_bearing") .and. .not. any(told == "needle_bearing.kind")) then
+      if (has_group(settings, "needle_bearing") .and. .not. any(left_out == "needle_bearing.kind")) then
          if (get_word(settings, "needle_bearing", "kind") /= roller_bearing_names(kind_needles)) then
             call add_line(remarks, "&needle_drag is the oil's drag on needles, and needle_bearing.kind is '"// &
                & get_word(settings, "needle_bearing", "kind")//"'")
             return
          end if
       end if
-      call get(settings, told, "needle_drag.pitch_diameter_mm roller.radius_mm roller.wall_thickness_mm", value, are_there)
+      call get(settings, left_out, "needle_drag.pitch_diameter_mm roller.radius_mm roller.wall_thickness_mm", value, are_there)
       if (.not. are_there) return
-      call get(settings, told, "needle_bearing.needle_radius_mm", needle, is_there)
+      call get(settings, left_out, "needle_bearing.needle_radius_mm", needle, is_there)
       if (.not. is_there) needle = 0.0_wp
       by_others = 2.0_wp*(value(2) - value(3) - needle(1))
       if (is_there .and. abs(value(1) - by_others) <= room*by_others) return
@@ -121,11 +121,11 @@ contains
    end subroutine compare_roller_bearing
 
    !> The guide of &valve_guide is that of &guide_side_load; the valve's tip stays above it, and the pad reaches it.
-   subroutine compare_guide(settings, told, remarks)
+   subroutine compare_guide(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
@@ -136,30 +136,30 @@ contains
       integer :: i
 
       if (.not. has_group(settings, group)) return
-      call get(settings, told, group//".guide_length_mm valve_guide.length_mm", value, are_there)
+      call get(settings, left_out, group//".guide_length_mm valve_guide.length_mm", value, are_there)
       if (are_there .and. abs(value(1) - value(2)) > room*maxval(value)) call add_line(remarks, group//".guide_length_mm = "// &
          & number_text(mm*value(1), digits)//" and valve_guide.length_mm = "//number_text(mm*value(2), digits)// &
          & " are of the same guide")
       do i = 1, size(lifts)
-         call get(settings, told, group//".tip_height_mm "//trim(lifts(i))//".max_lift_mm", value, are_there)
+         call get(settings, left_out, group//".tip_height_mm "//trim(lifts(i))//".max_lift_mm", value, are_there)
          if (.not. are_there .or. value(1) >= value(2)) cycle
          call add_line(remarks, group//".tip_height_mm = "//number_text(mm*value(1), digits)//": the valve's tip would go "// &
             & number_text(mm*(value(2) - value(1)), 3)//" mm into its guide, with a lift of "//number_text(mm*value(2), digits)// &
             & " mm")
          exit
       end do
-      call get(settings, told, group//".stem_axis_mm mechanism.pivot_to_pad_mm", value, are_there)
+      call get(settings, left_out, group//".stem_axis_mm mechanism.pivot_to_pad_mm", value, are_there)
       if (are_there .and. value(1) > (1.0_wp + room)*value(2)) call add_line(remarks, group//".stem_axis_mm = "// &
          & number_text(mm*value(1), digits)//": the pad is "//number_text(mm*value(2), digits)// &
          & " mm from the pivot and would not reach the valve")
    end subroutine compare_guide
 
    !> Two viscosities of one oil.
-   subroutine compare_viscosities(settings, told, remarks)
+   subroutine compare_viscosities(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
@@ -171,7 +171,7 @@ contains
       logical :: are_there
 
       if (get_word(settings, "lubricant", "temperature_law") /= "data_sheet") return
-      call get(settings, told, "lubricant.viscosity_at_40_degC_mm2_s lubricant.viscosity_at_100_degC_mm2_s", value, are_there)
+      call get(settings, left_out, "lubricant.viscosity_at_40_degC_mm2_s lubricant.viscosity_at_100_degC_mm2_s", value, are_there)
       if (.not. are_there) return
       value = mm2*value
       if (value(2) < smallest_indexed) return
@@ -187,11 +187,11 @@ contains
    end subroutine compare_viscosities
 
    !> With lash nothing presses the roller onto the base circle.
-   subroutine compare_lash(settings, told, remarks)
+   subroutine compare_lash(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
@@ -199,18 +199,18 @@ contains
       real(wp) :: value(2)
       logical :: are_there
 
-      call get(settings, told, "dynamics.lash_mm spring.base_circle_load_N", value, are_there)
+      call get(settings, left_out, "dynamics.lash_mm spring.base_circle_load_N", value, are_there)
       if (are_there .and. all(value > 0.0_wp)) call add_line(remarks, "spring.base_circle_load_N = "// &
          & number_text(value(2), digits)//" does not load the flexible train, which has lash on its base circle; margins and "// &
          & "estimates of the rigid train have it")
    end subroutine compare_lash
 
    !> The coefficient of asperities is that of the logarithmic law at its reference, and within its bounds.
-   subroutine compare_boundary(settings, told, remarks)
+   subroutine compare_boundary(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
@@ -219,8 +219,8 @@ contains
       real(wp) :: value(3)
       logical :: are_there
 
-      if (any(told == group//".law") .or. get_word(settings, group, "law") /= "logarithmic") return
-      call get(settings, told, key//" "//group//".smallest_coefficient "//group//".largest_coefficient", value, are_there)
+      if (any(left_out == group//".law") .or. get_word(settings, group, "law") /= "logarithmic") return
+      call get(settings, left_out, key//" "//group//".smallest_coefficient "//group//".largest_coefficient", value, are_there)
       if (.not. are_there) return
       if (value(1) > value(3)) call add_line(remarks, key//" = "//number_text(value(1), digits)//" is cut to "//group// &
          & ".largest_coefficient = "//number_text(value(3), digits))
@@ -229,11 +229,11 @@ contains
    end subroutine compare_boundary
 
    !> Valves open when their cylinder does not fire, its pressure acts on all of them at the same time, and each cylinder has some.
-   subroutine look_at_engine(settings, told, remarks)
+   subroutine look_at_engine(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
@@ -248,7 +248,7 @@ contains
       if (.not. (has_group(settings, "engine") .and. has_group(settings, "cam_bearings"))) return
       strokes = 4
       call take(settings, "engine", "strokes", strokes)
-      if (strokes == 4 .and. is_known(settings, "engine", "full_lift_deg") .and. .not. any(told == "engine.full_lift_deg")) then
+      if (strokes == 4 .and. is_known(settings, "engine", "full_lift_deg") .and. .not. any(left_out == "engine.full_lift_deg")) then
          call take(settings, "engine", "full_lift_deg", full_lift)
          cycle_angle = pi*strokes
          do i = 1, size(full_lift)
@@ -291,11 +291,11 @@ contains
    end subroutine look_at_temperature
 
    !> Values of numbers, where all of them are there and something may be said of each.
-   subroutine get(settings, told, keys, values, are_there)
+   subroutine get(settings, left_out, keys, values, are_there)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
-      character(len=*), intent(in) :: told(:)
+      character(len=*), intent(in) :: left_out(:)
       !> Their names as `group.key`, single blanks between them
       character(len=*), intent(in) :: keys
       !> The first of them; 0 where not all are there [SI unit of each]
@@ -313,7 +313,7 @@ contains
          last = first + index(keys(first:)//" ", " ") - 2
          dot = first + index(keys(first:last), ".") - 1
          i = i + 1
-         are_there = has_group(settings, keys(first:dot - 1)) .and. .not. any(told == keys(first:last))
+         are_there = has_group(settings, keys(first:dot - 1)) .and. .not. any(left_out == keys(first:last))
          if (are_there) are_there = is_known(settings, keys(first:dot - 1), keys(dot + 1:last))
          if (are_there) call take(settings, keys(first:dot - 1), keys(dot + 1:last), values(i))
          first = last + 2
