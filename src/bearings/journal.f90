@@ -310,7 +310,7 @@ contains
    end subroutine find_attitude
 
    !> e/sqrt(1 - e^2) under a load, by Newton's method on logarithms: there the load number rises with a slope between 1 and 4
-   !> which changes little, so that a few steps from a bound above the root suffice.
+   !> which changes little, so that two or three steps from a place near the root suffice.
    pure subroutine find_tangent(journal, load, t, status)
       !> The bearing
       type(journal_t), intent(in) :: journal
@@ -322,7 +322,7 @@ contains
       integer, intent(out) :: status
 
       !> Change of ln t whose square is round-off [-]
-      real(wp), parameter :: last_change = 1.0e-9_wp
+      real(wp), parameter :: last_change = sqrt(epsilon(1.0_wp))
       !> Steps at most
       integer, parameter :: most_steps = 50
       !> Load number, that at t and its slope, change of the logarithm of t [-]
@@ -336,7 +336,7 @@ contains
       if (number > huge(number)) return
       status = journal_solved
       if (number <= tiny(1.0_wp)) return
-      t = largest_tangent(journal, number)
+      t = nearby_tangent(journal, number)
       do step = 1, most_steps
          call load_number(journal, t, value, slope)
          change = log(number/value)/slope
@@ -382,33 +382,38 @@ contains
       end select
    end subroutine load_number
 
-   !> A bound of t at a load number, close where the number is small or large.
-   pure function largest_tangent(journal, number) result(t)
+   !> t near that of a load number: from a bound above it, with the factors of the law that change little there put in again.
+   pure function nearby_tangent(journal, number) result(t)
       !> The bearing
       type(journal_t), intent(in) :: journal
-      !> Load number [-]
+      !> Load number, positive [-]
       real(wp), intent(in) :: number
-      !> e/sqrt(1 - e^2) of no smaller a load number [-]
+      !> e/sqrt(1 - e^2) [-]
       real(wp) :: t
 
-      !> Load number over the smallest factor of `t sqrt(16 t^2 + pi^2)` [-]
-      real(wp) :: reduced
-      !> The bound is above the root by more than round-off [-]
-      real(wp), parameter :: margin = 1.0_wp + 1.0e-12_wp
+      !> Load number over the factors but `t sqrt(16 t^2 + pi^2)`, e, the pole [-]
+      real(wp) :: reduced, e, pole
+      integer :: i
 
       select case (journal%law)
       case (law_long)
          t = number/(4.0_wp*pi)
+         do i = 1, 3
+            t = number/(12.0_wp*pi)*(3.0_wp - 1.0_wp/(1.0_wp + t**2))
+         end do
       case (law_short)
          reduced = number/journal%width_ratio**2
          t = min(reduced/pi, sqrt(sqrt(0.25_wp*reduced)))
       case default
-         reduced = number*(0.5_wp*(1.0_wp + finite_pole(journal%width_ratio))/journal%width_ratio)**2 &
-            & /finite_factor(journal%width_ratio)
-         t = min(reduced/pi, sqrt(0.25_wp*reduced))
+         pole = finite_pole(journal%width_ratio)
+         e = 0.5_wp*(pole - 1.0_wp)
+         do i = 1, 3
+            reduced = number*(1.0_wp + e)*(pole - e)/(journal%width_ratio**2*finite_factor(journal%width_ratio))
+            t = reduced*sqrt(2.0_wp/(pi**2 + hypot(pi**2, 8.0_wp*reduced)))
+            e = t/sqrt(1.0_wp + t**2)
+         end do
       end select
-      t = margin*t
-   end function largest_tangent
+   end function nearby_tangent
 
    !> Butenschoen's a_1: load over that of a short bearing.
    elemental function finite_factor(b) result(a_1)

@@ -1,11 +1,12 @@
 !> Remarks on the bearings of a camshaft: widths that their law is not for, films too thin for it, orbits beyond its fit; on the
 !> width of a roller's bearing on its pin.
 !>
-!> In: a solved case, the smallest film of each bearing at some angles. Out: remarks, one line of each kind.
+!> In: a solved case, the smallest film of each bearing at the angles of the means. Out: remarks, one line of each kind.
 module camroller_bearing_remarks
    use camroller_kinds, only : wp, two_pi
    use camroller_bearing_asperity, only : bearing_state_t, thinnest_film
    use camroller_error, only : error_t
+   use camroller_extremes, only : samples_t
    use camroller_journal, only : moves_like_finite
    use camroller_journal_motion, only : largest_fitted
    use camroller_journal_range, only : compare_width
@@ -24,9 +25,8 @@ module camroller_bearing_remarks
    !> Films are looked at closely from so far above a limit on: the angles of the means lie up to three degrees apart, or ten where
    !> all valves rest and loads hardly change [-]
    real(wp), parameter :: near = 1.25_wp
-   !> Angles of the close look, and from which one on to the next all are looked at only if a film is near a limit at either: two
-   !> degrees apart
-   integer, parameter :: angles = 720, stride = 4
+   !> Angles of the close look in a turn; those are taken that lie beside an angle of the means where a film is near a limit
+   integer, parameter :: angles = 240
 
    !> Films of all bearings below a limit
    type :: thin_films_t
@@ -42,11 +42,12 @@ module camroller_bearing_remarks
 contains
 
    !> Remarks on all bearings of a case.
-   subroutine judge_bearings(solved, thinnest, remarks, error)
+   subroutine judge_bearings(solved, samples, remarks, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
-      !> Smallest film of the bearings at the angles of the means [m]
-      real(wp), intent(in) :: thinnest
+      !> Smallest film of each bearing of each camshaft at the angles of the means, in order round a turn; empty without bearings
+      !> [m]
+      type(samples_t), intent(in) :: samples
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
       !> Convergence or domain error
@@ -62,8 +63,8 @@ contains
          if (allocated(shaft%touch)) films(1)%limit = thinnest_film*shaft%touch%roughness
          if (has_orbits(solved%case) .and. moves_like_finite(shaft%journal)) films(2)%limit = (1.0_wp - largest_fitted) &
             & *bearings%radial_clearance
-         if (.not. thinnest < near*maxval(films%limit)) return
-         call look_closely(solved, films, error)
+         if (.not. any(samples%values(:, :samples%count) < near*maxval(films%limit))) return
+         call look_closely(solved, samples, films, error)
          if (allocated(error)) return
          if (films(1)%smallest < films(1)%limit) call add_rubbing(films(1), allocated(shaft%touch), remarks)
          if (films(2)%smallest < films(2)%limit) call add_remark(remarks, orbit_out_of_range, "the orbit of the journal in "// &
@@ -142,36 +143,39 @@ contains
    end subroutine add_rubbing
 
    !> Which films are below limits, and for how long.
-   subroutine look_closely(solved, films, error)
+   subroutine look_closely(solved, samples, films, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
+      !> Smallest film of each bearing of each camshaft at the angles of the means, in order round a turn [m]
+      type(samples_t), intent(in) :: samples
       !> In: with limits; out: with what is below them
       type(thin_films_t), intent(inout) :: films(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Films of all bearings at an angle, the smallest of each, those at the ends of the strides [m]
+      ! Films of all bearings at an angle, the smallest of each [m]
       real(wp), dimension(bearing_number(solved%shaft), solved%shaft%count) :: here, smallest
-      real(wp) :: ends(size(here, 1), size(here, 2), 0:angles/stride)
       ! Angles below each limit
       integer :: below(size(here, 1), size(here, 2), size(films))
-      integer :: i, k, left, worst(2)
+      ! Angles of the means from the first on, that one again last [rad]; is a film near a limit there?
+      real(wp) :: places(samples%count + 1)
+      logical :: is_near(samples%count + 1)
+      integer :: first, gap, i, k, worst(2)
 
+      places = [modulo(samples%angle(:samples%count) - samples%angle(1), two_pi), two_pi]
+      is_near(:samples%count) = any(samples%values(:, :samples%count) < near*maxval(films%limit), 1)
+      is_near(samples%count + 1) = is_near(1)
       smallest = huge(1.0_wp)
       below = 0
-      do i = stride, angles, stride
-         call take_films(solved, i, ends(:, :, i/stride), error)
+      gap = 1
+      first = ceiling(angles*samples%angle(1)/two_pi)
+      do i = first, first + angles - 1
+         do while (gap < samples%count .and. two_pi*i/angles - samples%angle(1) > places(gap + 1))
+            gap = gap + 1
+         end do
+         if (.not. any(is_near(gap:gap + 1))) cycle
+         call take_films(solved, i, here, error)
          if (allocated(error)) return
-      end do
-      ends(:, :, 0) = ends(:, :, angles/stride)
-      do i = 1, angles
-         left = (i - 1)/stride
-         here = ends(:, :, left + 1)
-         if (i < stride*(left + 1)) then
-            if (.not. any(ends(:, :, left:left + 1) < near*maxval(films%limit))) cycle
-            call take_films(solved, i, here, error)
-            if (allocated(error)) return
-         end if
          smallest = min(smallest, here)
          do k = 1, size(films)
             where (here < films(k)%limit) below(:, :, k) = below(:, :, k) + 1

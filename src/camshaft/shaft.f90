@@ -50,6 +50,8 @@ module camroller_shaft
       !> Part of each cam's force that each bearing of its camshaft carries, shape (bearing, cam) [-]; loads by the pull of belt or
       !> chain, zero without it, shape (2, bearing) [N]
       real(wp), allocatable :: shares(:, :), pull(:, :)
+      !> The first of both bearings between which each cam is
+      integer, allocatable :: left(:)
       !> Their surfaces; allocated where the case has them
       type(touch_t), allocatable :: touch
       !> Torque of seals and drive over speed and temperature, allocated where the case has it
@@ -150,9 +152,11 @@ contains
       integer :: cam
 
       associate (places => case%cam_bearings%bearing_positions, cams => case%cam_bearings%cam_positions)
-         allocate (shaft%shares(size(places), size(cams)), shaft%pull(2, size(places)), shaft%loads(2, size(places)))
+         allocate (shaft%shares(size(places), size(cams)), shaft%pull(2, size(places)), shaft%loads(2, size(places)), &
+            & shaft%left(size(cams)))
          do cam = 1, size(cams)
             shaft%shares(:, cam) = bearing_shares(places, cams(cam))
+            shaft%left(cam) = min(findloc(shaft%shares(:, cam) > 0.0_wp, .true., 1), size(places) - 1)
          end do
          shaft%pull = 0.0_wp
          if (allocated(case%belt_pull)) shaft%pull = pull_loads(places, case%belt_pull)
@@ -287,12 +291,12 @@ contains
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: angle
       !> Torques of all followers and bearings of each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
-      real(wp), intent(out) :: torques(:, :)
+      real(wp), intent(out), contiguous :: torques(:, :)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
       !> What each cam takes from its follower there, shape (value, cam); those of twins are not used [N m, N]; without it the
       !> curves say so
-      real(wp), intent(in), optional :: cams(:, :)
+      real(wp), intent(in), contiguous, optional :: cams(:, :)
       !> States of the bearings, shape (bearing, camshaft)
       type(bearing_state_t), intent(out), optional :: bearings(:, :)
 
@@ -321,9 +325,9 @@ contains
       !> The shaft; out: with the forces
       type(shaft_t), intent(inout) :: shaft
       !> What each cam takes from its follower, shape (value, cam); those of twins are not used [N m, N]
-      real(wp), intent(in) :: cams(:, :)
+      real(wp), intent(in), contiguous :: cams(:, :)
       !> The torques [N m], last the energy residual [W], shape (torque, camshaft)
-      real(wp), intent(out) :: torques(:, :)
+      real(wp), intent(out), contiguous :: torques(:, :)
 
       integer :: cam
 
@@ -390,7 +394,7 @@ contains
       !> The shaft; its room is used
       type(shaft_t), intent(inout) :: shaft
       !> Force on each cam in the frame of the first follower, shape (2, cam) [N]
-      real(wp), intent(in) :: forces(:, :)
+      real(wp), intent(in), contiguous :: forces(:, :)
       !> The torques [N m]
       real(wp), intent(out) :: torques(:)
       !> Domain error where a bearing law has no solution
@@ -410,8 +414,7 @@ contains
             loads = shaft%pull
             do cam = 1, size(shaft%lobes)
                if (shaft%shafts(cam) /= k) cycle
-               do bearing = 1, size(loads, 2)
-                  if (.not. abs(shaft%shares(bearing, cam)) > 0.0_wp) cycle
+               do bearing = shaft%left(cam), shaft%left(cam) + 1
                   loads(1, bearing) = loads(1, bearing) + shaft%shares(bearing, cam)*forces(1, cam)
                   loads(2, bearing) = loads(2, bearing) + shaft%shares(bearing, cam)*forces(2, cam)
                end do
@@ -422,7 +425,8 @@ contains
                   call state_of_turn(shaft, bearing, k, angle, loads(:, bearing), state, status)
                else if (bearing == 1) then
                   call carry_load(shaft%journal, loads(:, 1), state, status, shaft%touch)
-               else if (any(abs(loads(:, bearing) - loads(:, bearing - 1)) > 0.0_wp)) then
+               else if (abs(loads(1, bearing) - loads(1, bearing - 1)) + abs(loads(2, bearing) - loads(2, bearing - 1)) &
+                  & > 0.0_wp) then
                   call carry_load(shaft%journal, loads(:, bearing), state, status, shaft%touch)
                end if
                if (status /= journal_solved) then

@@ -265,7 +265,7 @@ contains
 
       ! Shares of the points [-]
       real(wp) :: shares(panel_points)
-      integer :: piece, point
+      integer :: piece, i
 
       values = 0.0_wp
       is_known = .false.
@@ -273,9 +273,13 @@ contains
       if (piece == 0) return
       is_known = curve%is_smooth(:, piece)
       if (.not. any(is_known)) return
-      do point = 1, panel_points
-         values = values + shares(point)*curve%values(:, point, piece)
-      end do
+      ! In one pass, not in one for each point
+      associate (v => curve%values(:, :, piece))
+         do i = 1, curve_values
+            values(i) = shares(1)*v(i, 1) + shares(2)*v(i, 2) + shares(3)*v(i, 3) + shares(4)*v(i, 4) + shares(5)*v(i, 5) &
+               & + shares(6)*v(i, 6) + shares(7)*v(i, 7)
+         end do
+      end associate
    end subroutine curve_at
 
    !> Contact to start from at a cam angle: on the polynomial of its piece, whether or not that is good enough for anything else.

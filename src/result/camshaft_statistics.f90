@@ -42,11 +42,14 @@ module camroller_camshaft_statistics
       !> Those of them that are of single bearings, the last ones
       integer :: of_bearings = 0
       logical :: keeps_rows = .true.
-      !> Room for torques on each camshaft [N m], for a row [unit of the series], and for bearings, where there are any
+      !> Room for torques on each camshaft [N m], for a row [unit of the series]
       real(wp), allocatable :: torques(:, :), row(:)
+      !> Room for the bearings, none where the case has none
       type(bearing_state_t), allocatable :: bearings(:, :)
-      !> Smallest film of the bearings at the angles evaluated [m]
-      real(wp) :: thinnest = huge(1.0_wp)
+      !> Smallest film of each bearing of each camshaft at the same angles [m]
+      type(samples_t) :: films
+      !> Room for a row of it [m]
+      real(wp), allocatable :: film(:)
    contains
       procedure :: sample => sample_bearings
    end type bearing_samples_t
@@ -70,7 +73,7 @@ contains
 
    !> Mean torque of the bearings of each camshaft, and means of the series of single bearings, over panels that end at the stops
    !> of every cam.
-   subroutine mean_bearing_torque(solved, series, single, mean, mean_error, worst, rows, thinnest, error)
+   subroutine mean_bearing_torque(solved, series, single, mean, mean_error, worst, rows, films, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout), target :: solved
       !> All series of the case
@@ -85,8 +88,8 @@ contains
       character(len=*), intent(out) :: worst
       !> Series of the camshaft at the angles evaluated
       type(samples_t), intent(out) :: rows
-      !> Smallest film of the bearings at these angles, huge where there are none [m]
-      real(wp), intent(out) :: thinnest
+      !> Smallest film of each bearing of each camshaft at these angles, in order round a turn [m]
+      type(samples_t), intent(out) :: films
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
@@ -105,16 +108,17 @@ contains
       samples%solved => solved
       samples%series = camshaft_count(solved%case)
       samples%of_bearings = size(single)
-      allocate (samples%torques(torque_count, solved%shaft%count), samples%row(samples%series))
-      if (bearing_number(solved%shaft) > 0) allocate (samples%bearings(bearing_number(solved%shaft), solved%shaft%count))
+      allocate (samples%torques(torque_count, solved%shaft%count), samples%row(samples%series), &
+         & samples%bearings(bearing_number(solved%shaft), solved%shaft%count), &
+         & samples%film(bearing_number(solved%shaft)*solved%shaft%count))
       call start_samples(samples%rows, samples%series)
+      call start_samples(samples%films, size(samples%film))
       stops = shaft_stops(solved, spread(.true., 1, size(solved%shaft%lobes)))
       call start_panels(panels, size(allowed), 2*size(stops) + ceiling(two_pi/longest_panel))
       do segment = 1, size(stops) - 1
          count = ceiling((stops(segment + 1) - stops(segment))/merge(longest_at_rest, longest_panel, &
             & valves_rest(solved, 0.5_wp*(stops(segment) + stops(segment + 1)))))
-         if (count == 0) cycle
-         length = (stops(segment + 1) - stops(segment))/count
+         length = (stops(segment + 1) - stops(segment))/max(count, 1)
          do panel = 1, count
             call sample_panel(panels, samples, stops(segment) + (panel - 1)*length, stops(segment) + panel*length, error)
             if (allocated(error)) return
@@ -122,7 +126,7 @@ contains
       end do
       ! Not those of halved panels: what bearings ask for changes nothing but their own torque
       call move_samples(samples%rows, rows)
-      thinnest = samples%thinnest
+      call move_samples(samples%films, films)
       samples%keeps_rows = .false.
       halvings = most_halvings
       allowed = max(quadrature_part*mean_tolerance(maxval(solved%cycles%tolerance))*sum(panels%sizes(:, :panels%count), 2), &
@@ -157,14 +161,20 @@ contains
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
+      integer :: k
+
       call shaft_torques(self%solved, x, self%torques, error, bearings=self%bearings)
       if (allocated(error)) return
-      if (allocated(self%bearings)) self%thinnest = min(self%thinnest, minval(self%bearings%film))
       values(:self%solved%shaft%count) = self%torques(of_bearings, :)
       if (self%of_bearings == 0 .and. .not. self%keeps_rows) return
       call camshaft_values(self%solved%case, self%torques, self%row, self%bearings, self%solved%shaft%has_torque)
       values(self%solved%shaft%count + 1:) = self%row(self%series - self%of_bearings + 1:)
-      if (self%keeps_rows) call add_sample(self%rows, x, self%row, .false.)
+      if (.not. self%keeps_rows) return
+      call add_sample(self%rows, x, self%row, .false.)
+      do k = 1, size(self%bearings, 2)
+         self%film((k - 1)*size(self%bearings, 1) + 1:k*size(self%bearings, 1)) = self%bearings(:, k)%film
+      end do
+      call add_sample(self%films, x, self%film, .false.)
    end subroutine sample_bearings
 
    !> Smallest and largest values of the camshaft's series, with the largest of their errors.
@@ -473,7 +483,7 @@ contains
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
       !> What each cam takes from its follower, shape (value, cam) [N m, N]; without it the curves say so
-      real(wp), intent(in), optional :: cams(:, :)
+      real(wp), intent(in), contiguous, optional :: cams(:, :)
 
       ! Torques on each camshaft [N m]
       real(wp) :: torques(torque_count, solved%shaft%count)

@@ -171,11 +171,12 @@ contains
 
       type(solved_t), target :: solved
       type(extremes_t) :: extremes
-      type(samples_t) :: torque_rows
+      ! Series of the camshaft at the angles of its means, smallest films of its bearings there
+      type(samples_t) :: torque_rows, films
       ! Mean torque of the bearings of each camshaft [N m], means of series of single bearings [unit of each]
       real(wp), allocatable :: bearing_torque(:), of_bearings(:)
-      ! Error of both [-], smallest film of the bearings [m]
-      real(wp) :: bearing_error, thinnest
+      ! Error of both [-]
+      real(wp) :: bearing_error
       ! Name of the series that this is the error of
       character(len=name_length) :: worst
       integer :: lobe
@@ -202,9 +203,8 @@ contains
          if (allocated(error)) return
       end do
       allocate (bearing_torque(solved%shaft%count), of_bearings(bearing_series_count(case)))
-      call mean_bearing_torque(solved, result%series, of_bearings, bearing_torque, bearing_error, worst, torque_rows, thinnest, &
-         & error)
-      if (.not. allocated(error)) call judge_bearings(solved, thinnest, result%remarks, error)
+      call mean_bearing_torque(solved, result%series, of_bearings, bearing_torque, bearing_error, worst, torque_rows, films, error)
+      if (.not. allocated(error)) call judge_bearings(solved, films, result%remarks, error)
       if (allocated(error)) return
       if (allocated(cycles(1)%flexible) .and. .not. allocated(case%cam_bearings)) torque_rows = statistics(1)%torque_rows
       if (bearing_error > maxval(statistics%mean_error)) then

@@ -303,8 +303,8 @@ contains
             call set_point(case, point_speeds(1), oils(i))
             call run(case, result, error)
             if (allocated(error)) return
-            associate (films => result%series_values(:, find_quantity(result%series, "bearing_1_film_min")), &
-               & others => result%series_values(:, find_quantity(result%series, "bearing_2_film_min")))
+            associate (films => result%series_values(::3, find_quantity(result%series, "bearing_1_film_min")), &
+               & others => result%series_values(::3, find_quantity(result%series, "bearing_2_film_min")))
                call check_films(error, result, rubbing_bearing, films, others, limit, "the film of camshaft bearing 1 goes "// &
                   & "down to "//number_text(minval(films)/merge(1.0e-6_wp, 1.2e-6_wp, k == 1), 2)// &
                   & trim(merge(" um              ", " of the roughness", k == 1))//", below 0.5 for", seen)
@@ -321,7 +321,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(result_t), intent(in) :: result
       integer, intent(in) :: kind
-      ! Films of both bearings at the angles of the remark, limit [m]
+      ! Films of both bearings at the angles of the remark, every third of the series, limit [m]
       real(wp), intent(in) :: films(:), others(:), limit
       ! What stands before the part of the turn
       character(len=*), intent(in) :: words
@@ -359,8 +359,8 @@ contains
          call set_point(case, point_speeds(1), oils(i))
          call run(case, result, error)
          if (allocated(error)) return
-         associate (films => result%series_values(:, find_quantity(result%series, "bearing_1_film_min")), &
-            & others => result%series_values(:, find_quantity(result%series, "bearing_2_film_min")))
+         associate (films => result%series_values(::3, find_quantity(result%series, "bearing_1_film_min")), &
+            & others => result%series_values(::3, find_quantity(result%series, "bearing_2_film_min")))
             call check_films(error, result, orbit_out_of_range, films, others, 0.02_wp*47.5e-6_wp, "the orbit of the journal "// &
                & "in camshaft bearing 1 goes to an eccentricity of "//number_text(1.0_wp - minval(films)/47.5e-6_wp, 4)// &
                & ", beyond 0.98 for", seen)
