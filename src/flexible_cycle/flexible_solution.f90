@@ -28,6 +28,8 @@ module camroller_flexible_solution
    integer, parameter :: least_statistics = 10
    !> Cycles that are allowed at least
    integer, parameter :: least_cycles = 40
+   !> Cycles that are allowed of a search with a larger tolerance: most trains take fewer, and one without a period loses little
+   integer, parameter :: few_cycles = 20
    !> Steps a cycle, on average over all that are allowed, after which the search for a period is given up, at the tolerance below
    !> or a larger one: trains without a period take up to 2900, `decks/dynamics.nml` at 4500 rev/min, and 5000 to 15000 where
    !> contacts part a hundred times in a turn
@@ -45,6 +47,9 @@ module camroller_flexible_solution
    real(wp), parameter, public :: tolerance_ratio = 0.4_wp
    !> Distance from the periodic state that is near enough, over the tolerance [-]
    real(wp), parameter :: closure_ratio = 10.0_wp
+   !> Tolerance of a search over that of the next, a turn of which takes two and a half times the steps; the largest one, with which
+   !> loads are good to a hundredth [-]
+   real(wp), parameter :: level_ratio = 100.0_wp, largest_level = 5.0e-4_wp
    !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much it errs at most, over the error [-]:
    !> a method of order 5 errs as its tolerance to the power 4/5 or 1, and less regularly where contacts open. A turn that errs
    !> more in the place of one that errs less would tell less: where steps are long, errors hardly grow with the tolerance
@@ -106,16 +111,56 @@ contains
       turn%most_work = most_work
       turn%most_search = int(min(real(most_work, wp), real(search_steps, wp)*max_cycles &
          & *max(1.0_wp, usual_tolerance/solution%cycle%tolerance)**steps_exponent))
-      if (.not. allocated(error)) call find_periodic(solution%cycle, turn, state, closure_ratio*solution%cycle%tolerance, &
-         & max_cycles, error)
-      if (.not. allocated(error)) then
-         solution%is_cut_short = solution%cycle%period == 0 .and. solution%cycle%cycles < max_cycles
-         call take_turns(solution, turn, state, error)
-      end if
+      if (.not. allocated(error)) call search_by_levels(solution, turn, state, max_cycles, error)
+      if (.not. allocated(error)) call take_turns(solution, turn, state, error)
       call add_context(error, "integrating the flexible train")
       if (.not. allocated(error)) call take_measures(solution, model, error)
       if (.not. allocated(error)) call estimate_error(solution, turn, error)
    end subroutine solve_flexible
+
+   !> Look for the periodic state with large tolerances first, whose turns take fewer steps, and from there with the one wanted.
+   subroutine search_by_levels(solution, turn, state, max_cycles, error)
+      !> The solution, with the tolerance
+      type(flexible_solution_t), intent(inout) :: solution
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> In: where the first turn starts; out: where the last one ends [state]
+      real(wp), intent(inout) :: state(:)
+      !> Turns at most of the search with the tolerance wanted
+      integer, intent(in) :: max_cycles
+      !> Convergence error where a turn cannot be integrated with the tolerance wanted
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Where the first turn starts [state]; tolerance over the one wanted [-]
+      real(wp) :: rest(size(state)), ratio
+      ! Steps of a search at most, those of the searches before; turns of these
+      integer :: most_search, steps, cycles
+
+      rest = state
+      most_search = turn%most_search
+      ratio = 1.0_wp
+      do while (level_ratio*ratio*solution%cycle%tolerance <= largest_level)
+         ratio = level_ratio*ratio
+      end do
+      associate (cycle => solution%cycle)
+         do
+            cycles = cycle%cycles
+            steps = cycle%counters%accepted + cycle%counters%rejected
+            turn%most_search = steps + most_search
+            call set_tolerance(turn, ratio*cycle%tolerance*turn%scales)
+            call find_periodic(cycle, turn, state, closure_ratio*ratio*cycle%tolerance, merge(max_cycles, few_cycles, &
+               & ratio <= 1.0_wp), error)
+            if (.not. ratio > 1.0_wp) exit
+            if (allocated(error)) then
+               deallocate (error)
+               state = rest
+            end if
+            cycle%period = 0
+            ratio = ratio/level_ratio
+         end do
+         solution%is_cut_short = cycle%period == 0 .and. cycle%cycles - cycles < max_cycles
+      end associate
+   end subroutine search_by_levels
 
    !> Turns of the period, or those for statistics: where the search for a period was given up, as many as it took, within limits.
    subroutine take_turns(solution, turn, state, error)
