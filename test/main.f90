@@ -57,6 +57,7 @@ program main
    use test_journal_orbit, only : collect_journal_orbit
    use test_mixed_bearings, only : collect_mixed_bearings
    use test_camshaft, only : collect_camshaft
+   use test_gas_of_lobes, only : collect_gas_of_lobes
    use test_kinematics_reference, only : collect_kinematics_reference
    use test_cycle_reference, only : collect_cycle_reference
    use test_unit_rescaling_contact, only : collect_unit_rescaling_contact
@@ -255,6 +256,7 @@ contains
          new_testsuite("journal_orbit", collect_journal_orbit), &
          new_testsuite("mixed_bearings", collect_mixed_bearings), &
          new_testsuite("camshaft", collect_camshaft), &
+         new_testsuite("gas_of_lobes", collect_gas_of_lobes), &
          new_testsuite("kinematics_reference", collect_kinematics_reference), &
          new_testsuite("cycle_reference", collect_cycle_reference), &
          new_testsuite("unit_rescaling_contact", collect_unit_rescaling_contact), &

@@ -4,16 +4,17 @@
 !> allocated means that it is part of the case. Whoever fills a case by hand gets it checked by `new_model`.
 module camroller_case
    use camroller_kinds, only : wp, degree
+   use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length
    use camroller_ode_methods, only : ode_method_names => method_names
    use camroller_lift, only : lift_t
    use camroller_kinematics, only : mechanism_t
-   use camroller_dynamics, only : masses_t, spring_t, gas_force_t
+   use camroller_dynamics, only : masses_t, spring_t, gas_force_t, seating_names, load_arm_names
    use camroller_materials, only : materials_t, surface_t
    use camroller_lubricant, only : lubricant_t
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_t
-   use camroller_asperity, only : asperity_t, friction_modifier_t
+   use camroller_asperity, only : asperity_t, boundary_names, friction_modifier_t
    use camroller_boundary_law, only : boundary_law_t
    use camroller_tribofilm, only : running_in_t, tribofilm_t
    use camroller_wear, only : wear_t
@@ -24,22 +25,22 @@ module camroller_case
    use camroller_guide, only : valve_guide_t
    use camroller_stem_friction, only : valve_tip_t, stem_seal_t, guide_side_load_t
    use camroller_pivot_friction, only : finger_pivot_t
-   use camroller_roller, only : roller_t
+   use camroller_roller, only : roller_t, spin_names
    use camroller_roller_profile, only : roller_profile_t
    use camroller_journal, only : cam_bearings_t
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t
    use camroller_camshaft, only : belt_pull_t
    use camroller_shaft_drag, only : shaft_drag_t
-   use camroller_engine, only : engine_t
+   use camroller_engine, only : engine_t, lobe_lag
    use camroller_flexible_parts, only : dynamics_t
    use camroller_spring_modes, only : spring_surge_t
    use camroller_lash_adjuster, only : lash_adjuster_t
    implicit none
    private
 
-   public :: case_t, operating_point_t, numerics_t, selection_t, camshaft_number, has_engine, energy_names, &
-      & contact_policy_names, method_names, quasi_static, method_choices, automatic_method, select_names, &
+   public :: case_t, operating_point_t, numerics_t, selection_t, camshaft_number, has_engine, gas_force_of, check_bookkeeping, &
+      & energy_names, contact_policy_names, method_names, quasi_static, method_choices, automatic_method, select_names, &
       & select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
 
    !> Name of the model that takes the roller's spin from its quasi-static balance
@@ -189,5 +190,44 @@ contains
 
       verdict = allocated(case%engine) .and. allocated(case%cam_bearings)
    end function has_engine
+
+   !> Cylinder pressure as the follower of a lobe shape feels it: over its own cam angle, on its own valve.
+   !>
+   !> All valves of a cylinder feel its pressure at the same crank angle. A lobe shape whose full lift follows that of the first by
+   !> some cam angle therefore meets each row of the table as much earlier, counted from its own full lift.
+   pure subroutine gas_force_of(case, lobe, gas)
+      !> The case, with gas force
+      type(case_t), intent(in) :: case
+      !> The lobe shape
+      integer, intent(in) :: lobe
+      !> Table and area
+      type(gas_force_t), intent(out) :: gas
+
+      gas = case%gas_force
+      if (lobe == 1) return
+      if (allocated(gas%second_valve_area)) gas%valve_area = gas%second_valve_area
+      if (has_engine(case) .and. allocated(gas%angle)) gas%angle = gas%angle - lobe_lag(case%engine, lobe)
+   end subroutine gas_force_of
+
+   !> A closed energy balance needs the exact arm and spin, mobilised friction and rolling resistance in the roller's balance.
+   subroutine check_bookkeeping(case, error)
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck error that names every contradiction
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: clashes
+
+      if (case%energy /= energy_names(1)) return
+      clashes = ""
+      if (case%spring%load_arm /= load_arm_names(1)) clashes = clashes//", spring load_arm 'exact'"
+      if (case%roller%spin /= spin_names(1)) clashes = clashes//", roller spin 'exact'"
+      if (.not. case%traction%in_roller_balance) clashes = clashes//", traction in_roller_balance = .true."
+      if (case%spring%seating == seating_names(2)) clashes = clashes//", spring seating 'continuous'"
+      if (allocated(case%asperity)) then
+         if (case%asperity%boundary /= boundary_names(1)) clashes = clashes//", asperity boundary 'mobilised'"
+      end if
+      if (len(clashes) > 0) call raise(error, kind_deck, "energy = 'consistent' needs "//clashes(3:))
+   end subroutine check_bookkeeping
 
 end module camroller_case

@@ -7,7 +7,7 @@ module camroller_engine
    implicit none
    private
 
-   public :: engine_t, cam_turns, cam_phases_of, crank_angle_at_nose, speed_names, write_speed
+   public :: engine_t, cam_turns, lobe_lag, cam_phases_of, crank_angle_at_nose, speed_names, write_speed
 
    !> Whose speed a deck gives
    character(len=*), parameter :: speed_names(*) = [character(len=10) :: "crankshaft", "camshaft"]
@@ -41,6 +41,19 @@ contains
 
       turns = 0.5_wp*engine%strokes
    end function cam_turns
+
+   !> By how much full lift of a lobe shape follows that of the first on valves of the same cylinder. Cam angles grow with time for
+   !> either sense of rotation, so that it does not matter here.
+   pure function lobe_lag(engine, lobe) result(lag)
+      !> The engine
+      type(engine_t), intent(in) :: engine
+      !> The lobe shape
+      integer, intent(in) :: lobe
+      !> The angle, of any turn [rad of cam angle]
+      real(wp) :: lag
+
+      lag = (engine%full_lift(lobe) - engine%full_lift(1))/cam_turns(engine)
+   end function lobe_lag
 
    !> A speed in the words of messages: `3000 rev/min`, or `6000 rev/min of the crankshaft` where the engine is known.
    pure subroutine write_speed(speed, turns, digits, text)

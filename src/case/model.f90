@@ -11,10 +11,10 @@ module camroller_model
    use camroller_axial_table, only : axial_part_t
    use camroller_accuracy, only : check_numerics, is_within, above_zero
    use camroller_cam_surface, only : cam_surface_t
-   use camroller_case, only : case_t, contact_policy_names, energy_names
-   use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
+   use camroller_case, only : case_t, check_bookkeeping, contact_policy_names, energy_names, gas_force_of
+   use camroller_lift, only : lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
-   use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names
+   use camroller_dynamics, only : gas_force_t, train_t, moments_t, evaluate_moments, seating_names, load_arm_names
    use camroller_input_ramp, only : ramp_t
    use camroller_pivot, only : pivot_t, new_pivot
    use camroller_flexible_parts, only : flexible_t, set_oil
@@ -25,7 +25,7 @@ module camroller_model
    use camroller_film_table, only : film_table_t
    use camroller_ehl_problem, only : largest_pressure, speed_range, load_range
    use camroller_ehl_table, only : ehl_t, build_film_table
-   use camroller_asperity, only : boundary_part_t, boundary_names, new_boundary_part, set_boundary_temperature
+   use camroller_asperity, only : boundary_part_t, new_boundary_part, set_boundary_temperature
    use camroller_number_text, only : number_text
    use camroller_traction, only : shear_law_names, law_eyring, limit_names, limit_local, cap_names, rolling_law_names
    use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
@@ -43,6 +43,8 @@ module camroller_model
 
    !> A model of one lobe and its follower
    type :: model_t
+      !> Lobe shape: 1 with the case's lift, 2 with its second lift
+      integer :: lobe = 1
       !> Is the energy balance closed?
       logical :: is_consistent
       !> Is the contact normal's exact arm used? Does pure rolling follow the turning of that normal?
@@ -119,23 +121,28 @@ module camroller_model
 contains
 
    !> Build a model from a case; refuses what cannot be put together.
-   subroutine new_model(model, case, lift, error)
+   subroutine new_model(model, case, lobe, error)
       !> The model
       type(model_t), intent(out) :: model
       !> A case
       type(case_t), intent(in) :: case
-      !> Lift of the lobe: the case's lift or its second lift
-      type(lift_t), intent(in) :: lift
+      !> Lobe shape: 1 with the case's lift, 2 with its second lift, which must be there
+      integer, intent(in) :: lobe
       !> Deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
       call choose_laws(model, case, error)
       if (allocated(error)) return
-      call check_bookkeeping(model, case, error)
+      call check_bookkeeping(case, error)
       if (allocated(error)) return
       call new_linkage(model%linkage, case%mechanism, error)
       if (allocated(error)) return
-      call new_lift_law(model%lift_law, lift, error)
+      model%lobe = lobe
+      if (lobe == 1) then
+         call new_lift_law(model%lift_law, case%lift, error)
+      else
+         call new_lift_law(model%lift_law, case%second_lift, error)
+      end if
       if (allocated(error)) return
       model%lift_stops = stop_angles(model%lift_law)
       call set_contact(model, case, error)
@@ -174,7 +181,7 @@ contains
       if (allocated(model%ehl)) deallocate (model%ehl)
       call choose_laws(model, case, error)
       if (allocated(error)) return
-      call check_bookkeeping(model, case, error)
+      call check_bookkeeping(case, error)
       if (allocated(error)) return
       call set_contact(model, case, error)
       if (allocated(error)) return
@@ -336,29 +343,6 @@ contains
       call find_name("rolling law", case%traction%rolling_law, rolling_law_names, model%rolling_law, error)
    end subroutine choose_laws
 
-   !> A closed energy balance needs the exact arm and spin, mobilised friction and rolling resistance in the roller's balance.
-   subroutine check_bookkeeping(model, case, error)
-      !> The model with its laws chosen
-      type(model_t), intent(in) :: model
-      !> A case
-      type(case_t), intent(in) :: case
-      !> Deck error that names every contradiction
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: clashes
-
-      if (.not. model%is_consistent) return
-      clashes = ""
-      if (.not. model%has_exact_arm) clashes = clashes//", spring load_arm 'exact'"
-      if (.not. model%has_exact_spin) clashes = clashes//", roller spin 'exact'"
-      if (.not. case%traction%in_roller_balance) clashes = clashes//", traction in_roller_balance = .true."
-      if (model%takes_maximum_load) clashes = clashes//", spring seating 'continuous'"
-      if (allocated(case%asperity)) then
-         if (case%asperity%boundary /= boundary_names(1)) clashes = clashes//", asperity boundary 'mobilised'"
-      end if
-      if (len(clashes) > 0) call raise(error, kind_deck, "energy = 'consistent' needs "//clashes(3:))
-   end subroutine check_bookkeeping
-
    !> Constants of the contact.
    subroutine set_contact(model, case, error)
       !> The model
@@ -451,6 +435,8 @@ contains
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
+      type(gas_force_t) :: gas
+
       call set_axial(model%axial, case%roller_profile, allocated(case%ehl), model%linkage, model%lift_law, model%contact_width, &
          & model%modulus, error)
       if (allocated(error)) return
@@ -487,7 +473,8 @@ contains
       if (allocated(error)) return
       if (allocated(case%gas_force)) then
          allocate (model%gas)
-         call new_gas_law(model%gas, case%gas_force, error)
+         call gas_force_of(case, model%lobe, gas)
+         call new_gas_law(model%gas, gas, error)
          if (allocated(error)) return
       end if
       if (allocated(case%dynamics)) then

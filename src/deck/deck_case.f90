@@ -8,7 +8,7 @@ module camroller_deck_case
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
    use camroller_table_file, only : table_t
-   use camroller_settings, only : settings_t, take, get_word, has_group
+   use camroller_settings, only : settings_t, take, get_word, has_group, is_known
    use camroller_deck_asperity, only : fill_modifier
    use camroller_deck_boundary_law, only : fill_boundary_law
    use camroller_deck_running_in, only : fill_running_in
@@ -122,7 +122,7 @@ contains
       !> The case
       type(case_t), intent(inout) :: case
 
-      !> Diameter of the valve's head [m]
+      ! Diameter of a valve's head [m]
       real(wp) :: diameter
 
       call take(settings, "masses", "valve_kg", case%masses%valve)
@@ -144,6 +144,9 @@ contains
          diameter = 0.0_wp
          call take(settings, "gas_force", "valve_diameter_mm", diameter)
          gas%valve_area = 0.25_wp*pi*diameter**2
+         if (.not. is_known(settings, "gas_force", "second_valve_diameter_mm")) return
+         call take(settings, "gas_force", "second_valve_diameter_mm", diameter)
+         gas%second_valve_area = 0.25_wp*pi*diameter**2
       end associate
    end subroutine fill_loads
 

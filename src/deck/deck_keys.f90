@@ -232,8 +232,11 @@ contains
       call add_name(schema, "pressure_unit", pressure_unit_names, pressure_unit_names(1), &
          & "unit of the pressure in the table")
       call add_number(schema, "table_nose_angle_deg", from_to(-360.0_wp, 360.0_wp), &
-         & "cam angle in the table at which the cam's nose is at the roller", default=pi)
+         & "cam angle in the table at which the cam's nose is at the roller; with &engine that of the first lobe shape: valves "// &
+         & "of the second one feel the same pressure at the same crank angle, by full_lift_deg", default=pi)
       call add_number(schema, "valve_diameter_mm", positive, "diameter of the valve's head", example="30")
+      call add_number(schema, "second_valve_diameter_mm", positive, &
+         & "the same of a valve that the second lobe shape lifts; as valve_diameter_mm where not given", is_optional=.true.)
    end subroutine add_gas_keys
 
    !> Bodies in contact.

@@ -96,6 +96,7 @@ module camroller_key_uses
       key_use_t("finger_pivot.reference_viscosity_Pa_s", "law", "stribeck"), &
       key_use_t("finger_pivot.reference_load_N", "law", "stribeck"), &
       key_use_t("stem_seal.reference_viscosity_Pa_s", "drag_follows", "viscosity"), &
+      key_use_t("gas_force.second_valve_diameter_mm", "&second_lift"), &
       key_use_t("cam_bearings.cam_cylinders", "&engine"), &
       key_use_t("dynamics.seat_damping_s_m", "seat_restitution", not_given), &
       key_use_t("dynamics.seat_restitution_speed_m_s", "seat_restitution", given), &

@@ -43,6 +43,7 @@ module camroller_usual_values
       usual_t("spring.base_circle_load_N", 0.0_wp, 400.0_wp), &
       usual_t("spring.seat_stiffness_N_m", 1.0e5_wp, 1.0e9_wp), &
       usual_t("gas_force.valve_diameter_mm", 10.0_wp, 80.0_wp), &
+      usual_t("gas_force.second_valve_diameter_mm", 10.0_wp, 80.0_wp), &
       usual_t("materials.cam_modulus_GPa", 60.0_wp, 450.0_wp), &
       usual_t("materials.roller_modulus_GPa", 60.0_wp, 450.0_wp), &
       usual_t("materials.cam_poisson_ratio", 0.15_wp, 0.4_wp), &

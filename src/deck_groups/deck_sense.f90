@@ -228,7 +228,7 @@ contains
          & ".smallest_coefficient = "//number_text(value(2), digits))
    end subroutine compare_boundary
 
-   !> Valves open when their cylinder does not fire, its pressure acts on all of them at the same time, and each cylinder has some.
+   !> Valves open when their cylinder does not fire, and each cylinder has some.
    subroutine look_at_engine(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -258,9 +258,6 @@ contains
             exit
          end do
       end if
-      if (has_group(settings, "gas_force") .and. has_group(settings, "second_lift")) call add_line(remarks, &
-         & "&gas_force presses the valves of both lobe shapes by the same table, counted from the nose of each; their cylinder "// &
-         & "has one pressure at a crank angle: the table can be right for one lobe shape only")
       if (.not. (is_known(settings, "engine", "cylinders") .and. is_known(settings, "cam_bearings", "cam_cylinders"))) return
       call take(settings, "engine", "cylinders", cylinders)
       call take(settings, "cam_bearings", "cam_cylinders", cylinders_of_cams)

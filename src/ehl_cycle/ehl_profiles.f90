@@ -88,11 +88,7 @@ contains
 
       plain = case
       call move_alloc(plain%ehl, setup)
-      if (is_second) then
-         call new_model(model, plain, plain%second_lift, error)
-      else
-         call new_model(model, plain, plain%lift, error)
-      end if
+      call new_model(model, plain, merge(2, 1, is_second), error)
       if (.not. allocated(error)) call check_geometry(model, plain%mechanism%grinding_wheel_radius, error)
       if (allocated(error) .and. is_second) call add_context(error, "second lift")
       if (allocated(setup)) call move_alloc(setup, model%ehl)

@@ -6,7 +6,8 @@ module camroller_model_mark
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_asperity, only : boundary_friction_t, boundary_part_t, find_boundary_friction, set_boundary_temperature
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, gas_force_of
+   use camroller_dynamics, only : gas_force_t
    use camroller_error, only : error_t
    use camroller_flexible_parts, only : flexible_t
    use camroller_lubricant, only : density_at, get_oil, lubricant_t, oil_t
@@ -38,6 +39,7 @@ contains
       integer(int64), intent(out) :: mark
 
       type(state_t) :: state
+      type(gas_force_t) :: gas
       ! Cam angle from full lift [rad]; sliding speed [m/s]
       real(wp) :: angle, sliding_speed
       integer(int64) :: parts(5*places)
@@ -57,8 +59,10 @@ contains
       end associate
       call mark_oil(case%lubricant, mark)
       if (allocated(model%boundary)) call mark_boundary(model%boundary, mark)
-      if (allocated(case%gas_force)) mark = mixed([mark, transfer([case%gas_force%valve_area, case%gas_force%angle, &
-         & case%gas_force%pressure], parts)])
+      if (allocated(case%gas_force)) then
+         call gas_force_of(case, model%lobe, gas)
+         mark = mixed([mark, transfer([gas%valve_area, gas%angle, gas%pressure], parts)])
+      end if
       if (allocated(model%flexible)) call mark_train(model%flexible, mark)
    end subroutine mark_model
 

@@ -347,11 +347,7 @@ contains
       !> Deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      if (lobe == 1) then
-         call new_model(model, case, case%lift, error)
-      else
-         call new_model(model, case, case%second_lift, error)
-      end if
+      call new_model(model, case, lobe, error)
       if (.not. allocated(error)) call check_geometry(model, case%mechanism%grinding_wheel_radius, error)
       if (lobe == 2) call add_context(error, "second lift")
    end subroutine build_model

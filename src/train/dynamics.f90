@@ -49,12 +49,14 @@ module camroller_dynamics
 
    !> Cylinder pressure on the valve
    type :: gas_force_t
-      !> Cam angle from full lift, one cycle, increasing [rad]
+      !> Cam angle from full lift, of the first lobe shape where an engine ties the shapes together, one cycle, increasing [rad]
       real(wp), allocatable :: angle(:)
       !> Gauge pressure that presses the valve shut [Pa]
       real(wp), allocatable :: pressure(:)
       !> Area of the valve head [m^2]
       real(wp) :: valve_area = 0.0_wp
+      !> Area of the head of a valve that the second lobe shape lifts; not allocated where it is the same [m^2]
+      real(wp), allocatable :: second_valve_area
    end type gas_force_t
 
    !> Masses and stiffnesses made ready for evaluation

@@ -35,6 +35,7 @@ VALUES = {
     **{f"{group}.{key}": value for group in ("valve_tip", "guide_side_load", "finger_pivot") for key, value in
        (("decay_speed_m_s", "0.4"), ("viscous_part_s_m", "0.02"), ("reference_viscosity_Pa_s", "0.02"), ("reference_load_N", "200"))},
     "stem_seal.reference_viscosity_Pa_s": "0.02", "cam_bearings.cam_cylinders": None,
+    "gas_force.second_valve_diameter_mm": "20",
     "dynamics.seat_damping_s_m": "2", "dynamics.seat_restitution_speed_m_s": "0.4",
     "effects.negligible": "0.05", "effects.quantity": "minimum_film",
     "numerics.step_deg": "0.05", "numerics.periodicity": "0.5", "sweep.series_cases": None,
@@ -54,6 +55,7 @@ POINTS = "lubricant.temperature_points_degC lubricant.viscosity_points_Pa_s"
 SHEET = "lubricant.viscosity_at_100_degC_mm2_s lubricant.density_kg_m3 lubricant.thermal_expansion_per_K"
 NEEDLES = "needle_bearing.needle_radius_mm"
 PINS = " ".join(key for key in VALUES if key.startswith("needle_bearing.pin"))
+GAS = "&gas_force table = 'cylinder_pressure.txt' valve_diameter_mm = 28 /\n"
 CURVES = " ".join(key for key in VALUES if re.match("valve_tip|guide_side_load|finger_pivot", key))
 TABLE = " ".join(key for key in VALUES if re.match(r"lift\.(table|smoothing)", key))
 LOGARITHM = " ".join(key for key in VALUES if re.match("boundary_law.*(reference|change|lowest)", key))
@@ -97,7 +99,11 @@ SCENES = {
         "coefficient_points = 0.11, 0.12, 0.1, 0.11 /\n",
         [BOUNDARY, POWER, POINTS, NEEDLES, SPEEDS, "roller_profile.design_load_N roller_profile.end_drop_um",
          "numerics.step_deg numerics.periodicity"]),
-    "seat with a damping": ([], "&dynamics /\n", [BOUNDARY, POWER, POINTS, NEEDLES, "dynamics.seat_damping_s_m"]),
+    "gas on the valves of two lobe shapes": (
+        ["cam_bearings.cam_lobes=1, 2", "cam_bearings.cam_positions_mm=20, 40", "cam_bearings.cam_phases_deg=0, 100"],
+        GAS + "&second_lift max_lift_mm = 9 opening_half_angle_deg = 70 exponents = 4 /\n",
+        [BOUNDARY, POWER, POINTS, NEEDLES, "gas_force.second_valve_diameter_mm"]),
+    "seat with a damping": ([], GAS + "&dynamics /\n", [BOUNDARY, POWER, POINTS, NEEDLES, "dynamics.seat_damping_s_m"]),
     "seat with a restitution": (
         [], "&dynamics seat_restitution = 0.4 /\n", [BOUNDARY, POWER, POINTS, NEEDLES, "dynamics.seat_restitution_speed_m_s"]),
     "numerical film": ([], "&ehl accuracy = 0.1 /\n", [BOUNDARY.removeprefix("film.law "), POWER, POINTS, NEEDLES]),
@@ -154,6 +160,7 @@ def test_an_idle_key_changes_nothing_and_a_used_one_does(camroller, tmp_path, sc
         text = text.replace("pressure_viscosity_coefficient_per_GPa = 22", "")
     for table in (ROOT / "decks/hard/tables").glob("*_lift.txt"):
         (tmp_path / table.name).write_bytes(table.read_bytes())
+    (tmp_path / "cylinder_pressure.txt").write_bytes((ROOT / "decks/tables/cylinder_pressure.txt").read_bytes())
     deck.write_text(text)
     present = re.findall(r"^&(\w+)", text, re.M) + ["effects", "numerics"]
     accuracy = [] if "numerics.method=euler" in values else ["numerics.accuracy=1e-2"]

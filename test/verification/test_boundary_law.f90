@@ -226,7 +226,7 @@ contains
       if (allocated(error)) return
       call set_operating_point(model, model%speed, 380.0_wp, failure)
       case%operating_point%oil_temperature = 380.0_wp
-      if (.not. allocated(failure)) call new_model(again, case, case%lift, failure)
+      if (.not. allocated(failure)) call new_model(again, case, 1, failure)
       if (allocated(failure)) then
          call test_failed(error, failure%message)
          return
@@ -295,7 +295,7 @@ contains
          if (i == 8) case%boundary_law%coefficient_points(3) = -0.1_wp
          if (i == 9) case%boundary_law%speed_points = [1.0_wp, 2.0_wp]
          if (i == 10) deallocate (case%boundary_law%temperature_points)
-         call new_model(model, case, case%lift, failure)
+         call new_model(model, case, 1, failure)
          call check(error, allocated(failure), "an impossible law is accepted")
          if (allocated(error)) return
          call check(error, failure%kind == kind_deck .and. index(failure%message, "boundary law") > 0, failure%message)

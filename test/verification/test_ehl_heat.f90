@@ -448,7 +448,7 @@ contains
       case%ehl = ehl_t(accuracy=0.1_wp)
       do i = 1, 2
          if (i == 2) call add_heat(case)
-         call new_model(model, case, case%lift, failure)
+         call new_model(model, case, 1, failure)
          call expect_success(error, failure)
          if (allocated(error)) return
          call evaluate_state(model, pi, 0.0_wp, states(i), status)

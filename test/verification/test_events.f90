@@ -375,7 +375,7 @@ contains
       type(model_t) :: model
       type(error_t), allocatable :: failure
 
-      call new_model(model, case, case%lift, failure)
+      call new_model(model, case, 1, failure)
       call expect_error(error, failure, kind, words)
    end subroutine refused
 

@@ -134,7 +134,7 @@ contains
       if (allocated(error)) return
       call set_operating_point(model, model%speed, 380.0_wp, failure)
       case%operating_point%oil_temperature = 380.0_wp
-      if (.not. allocated(failure)) call new_model(again, case, case%lift, failure)
+      if (.not. allocated(failure)) call new_model(again, case, 1, failure)
       if (allocated(failure)) then
          call test_failed(error, failure%message)
          return
@@ -160,7 +160,7 @@ contains
          if (i == 4) case%friction_modifier%adsorption_heat = -1.0_wp
          if (i == 5) case%friction_modifier%concentration_ratio = 0.0_wp
          if (i == 6) case%friction_modifier%reference_temperature = 0.0_wp
-         call new_model(model, case, case%lift, failure)
+         call new_model(model, case, 1, failure)
          call check(error, allocated(failure), "an impossible modifier is accepted")
          if (allocated(error)) return
          call check(error, failure%kind == kind_deck .and. index(failure%message, "friction modifier: ") > 0)

@@ -306,17 +306,17 @@ contains
 
       case = thesis_case()
       allocate (case%heat)
-      call new_model(model, case, case%lift, failure)
+      call new_model(model, case, 1, failure)
       call expect_error(error, failure, kind_deck, "viscosity_fall_per_K")
       if (allocated(error)) return
       case%heat%viscosity_fall = 0.05_wp
       case%heat%inlet_law = "warm"
-      call new_model(model, case, case%lift, failure)
+      call new_model(model, case, 1, failure)
       call expect_error(error, failure, kind_deck, "law of heat in the inlet")
       if (allocated(error)) return
       case%heat%inlet_law = "gupta"
       case%heat%conductivity(2) = 0.0_wp
-      call new_model(model, case, case%lift, failure)
+      call new_model(model, case, 1, failure)
       call expect_error(error, failure, kind_deck, "must be positive")
    end subroutine test_refusals
 

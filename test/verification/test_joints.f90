@@ -447,7 +447,7 @@ contains
 
       do i = 1, size(words)
          call impossible_joints(i, case)
-         call new_model(model, case, case%lift, failure)
+         call new_model(model, case, 1, failure)
          call expect_error(error, failure, kind_deck, trim(words(i)))
          if (allocated(error)) return
       end do

@@ -317,7 +317,7 @@ contains
       case = thesis_case()
       case%masses%finger_inertia = case%masses%finger*1.0e-4_wp
       case%masses%finger_centre = 11.0e-3_wp
-      call new_model(model, case, case%lift, failure)
+      call new_model(model, case, 1, failure)
       call expect_error(error, failure, kind_deck, "11")
       if (allocated(error)) return
       case%masses%finger_centre = 0.0_wp

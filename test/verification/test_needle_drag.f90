@@ -175,7 +175,7 @@ contains
       case = thesis_case()
       allocate (case%dynamics, case%needle_drag)
       case%needle_drag%pitch_diameter = 10.22e-3_wp
-      call new_model(model, case, case%lift, failure)
+      call new_model(model, case, 1, failure)
       call expect_error(error, failure, kind_deck, "flexible trains")
    end subroutine test_refusal
 

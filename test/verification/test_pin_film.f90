@@ -300,7 +300,7 @@ contains
             allocate (pinned%needle_drag)
             pinned%needle_drag%pitch_diameter = 10.0e-3_wp
          end select
-         call new_model(model, pinned, pinned%lift, failure)
+         call new_model(model, pinned, 1, failure)
          call expect_error(error, failure, kind_deck, trim(words(i)))
          if (allocated(error)) return
          deallocate (failure)

@@ -116,7 +116,7 @@ contains
          the_case = thesis_case()
          call set_point(the_case, point_speeds(point), point_viscosities(4 - point))
          the_case%numerics%method = "quasi_static"
-         call new_model(model, the_case, the_case%lift, failure)
+         call new_model(model, the_case, 1, failure)
          do i = 1, size(accuracies)
             the_case%numerics%accuracy = accuracies(i)
             if (.not. allocated(failure)) call run_case(the_case, result, failure)

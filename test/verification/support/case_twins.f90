@@ -2,6 +2,7 @@
 module case_twins
    use camroller_kinds, only : wp
    use camroller_case, only : case_t
+   use camroller_dynamics, only : gas_force_t
    use camroller_lift, only : lift_t
    use camroller_result, only : find_quantity, result_t
    use camroller_sliding_friction, only : sliding_t
@@ -83,8 +84,7 @@ contains
       call change(case%spring%precompression, length)
       call change(case%spring%base_circle_load, force)
       call change(case%spring%seat_stiffness, stiffness)
-      if (allocated(case%gas_force)) call change(case%gas_force%valve_area, area)
-      if (allocated(case%gas_force)) call change(case%gas_force%pressure, pressure)
+      if (allocated(case%gas_force)) call change_gas(case%gas_force)
       call change(case%materials%cam_modulus, pressure)
       call change(case%materials%roller_modulus, pressure)
       call change(case%materials%hardness, pressure)
@@ -129,6 +129,16 @@ contains
 
          value = scaled(units, value, dimension)
       end subroutine change
+
+      !> Cylinder pressure and valves in other units.
+      subroutine change_gas(gas)
+         !> The pressure and its valves
+         type(gas_force_t), intent(inout) :: gas
+
+         call change(gas%pressure, pressure)
+         call change(gas%valve_area, area)
+         if (allocated(gas%second_valve_area)) call change(gas%second_valve_area, area)
+      end subroutine change_gas
 
       !> Boundary friction, wear and films of surfaces in other units.
       subroutine change_surfaces()

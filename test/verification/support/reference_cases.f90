@@ -270,7 +270,7 @@ contains
 
       type(error_t), allocatable :: failure
 
-      call new_model(model, the_case, the_case%lift, failure)
+      call new_model(model, the_case, 1, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine make_model
 

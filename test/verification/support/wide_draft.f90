@@ -253,6 +253,8 @@ contains
          is_given = is_given .and. law == "table"
       case ("table_nose_angle_deg")
          is_given = is_given .and. (law == "table" .or. group == "gas_force")
+      case ("second_valve_diameter_mm")
+         is_given = is_given .and. draft%has_second
       case ("finger_kg")
          is_given = is_given .or. draft%is_first .or. draft%has_dynamics
       case ("finger_inertia_kg_m2")
@@ -275,8 +277,8 @@ contains
          is_given = deck_word(text, group, "profile") == merge("crowned    ", "logarithmic", key == "crown_radius_mm")
       case ("needle_radius_mm", "pin_width_mm", "pin_radial_clearance_um", "pin_roughness_um", "pin_modulus_GPa")
          is_given = is_given .or. deck_word(text, group, "kind") == merge("needles", "journal", key == "needle_radius_mm")
-      case ("grinding_wheel_radius_mm")
-         is_given = is_given .and. draft%is_first
+      case ("grinding_wheel_radius_mm", "tolerance")
+         is_given = is_given .and. (draft%is_first .neqv. key == "tolerance")
       case ("cam_cylinders")
          is_given = draft%has_engine
       case ("cam_phases_deg")
@@ -294,8 +296,6 @@ contains
          is_given = draft%has_lobes
       case ("accuracy")
          if (group == "numerics") is_given = is_given .and. draft%is_first
-      case ("tolerance")
-         is_given = is_given .and. .not. draft%is_first
       end select
    end subroutine keep_rules
 

@@ -52,6 +52,7 @@ module wide_numbers
       & usual_t("spring.seat_stiffness_N_m", 1.0e6_wp, 1.0e9_wp, .true.), &
       & usual_t("gas_force.table_nose_angle_deg", -180.0_wp, 360.0_wp), &
       & usual_t("gas_force.valve_diameter_mm", 15.0_wp, 45.0_wp), &
+      & usual_t("gas_force.second_valve_diameter_mm", 15.0_wp, 45.0_wp), &
       & usual_t("materials.cam_modulus_GPa", 70.0_wp, 400.0_wp), &
       & usual_t("materials.roller_modulus_GPa", 70.0_wp, 400.0_wp), &
       & usual_t("materials.cam_poisson_ratio", 0.2_wp, 0.35_wp), &
