@@ -58,8 +58,6 @@ module camroller_follower_piece
       !> As given, and with method and tolerance
       type(numerics_t) :: given, numerics
       type(point_t) :: point
-      !> Lobe shape
-      integer :: lobe = 1
       !> Is the oil of the model another one than that of the point? The next step sets it anew
       logical :: is_to_be_set = .false.
       !> Mark of the model at the start

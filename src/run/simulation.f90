@@ -102,7 +102,6 @@ contains
       end if
       started%follower%given = case%numerics
       started%follower%numerics = resolve_numerics(case%numerics)
-      started%follower%lobe = used_lobe
       started%follower%point%film_temperature = case%operating_point%oil_temperature
       started%follower%point%film_speed = case%operating_point%speed
       started%follower%point%oil_temperature = case%operating_point%oil_temperature
@@ -364,7 +363,7 @@ contains
       !> 1 or 2
       integer :: lobe
 
-      lobe = simulation%follower%lobe
+      lobe = simulation%follower%model%lobe
    end function get_lobe
 
    !> Mark of the model of a follower, as it was at the start.
