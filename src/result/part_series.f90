@@ -167,8 +167,8 @@ contains
             end associate
          end if
          if (allocated(model%surface)) then
-            call value_at_angle(model%surface%cam_film, state%position%angle, film, slope)
-            call value_at_angle(model%surface%cam_wear, state%position%angle, depth, slope)
+            call value_at_angle(model%surface%film_curve, state%position%angle, film, slope)
+            call value_at_angle(model%surface%wear_curve, state%position%angle, depth, slope)
          end if
          call add(list, "composite_roughness", "m", "composite roughness of cam and roller with their films", "running_in", &
             & contact%surfaces%roughness, least=rough)

@@ -21,14 +21,14 @@
 module camroller_running_in
    use camroller_kinds, only : wp, two_pi
    use camroller_accuracy, only : resolve_numerics
-   use camroller_cam_surface, only : cam_surface_t
+   use camroller_cam_surface, only : cam_surface_t, set_cam
    use camroller_case, only : case_t
    use camroller_error, only : error_t, add_context, raise, kind_deck, kind_domain
    use camroller_model, only : model_t
    use camroller_catalogue, only : lobe_prefix
    use camroller_result, only : append_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, scope_length
-   use camroller_surface_change, only : change_rates, differences, expected_scales, move_surfaces, plan_t, rates_t, relative, &
-      & set_surface, surfaces_t
+   use camroller_surface_change, only : change_rates, differences, expected_scales, missed_between, move_surfaces, plan_t, &
+      & rates_t, relative, set_surface, surfaces_t
    implicit none
    private
 
@@ -39,8 +39,11 @@ module camroller_running_in
 
    !> What hours of running make of a model
    type :: aged_t
-      !> Estimated error of thickness and depth, relative to the largest possible thickness and to the largest depth [-]
+      !> Estimated error of thickness and depth at the places of the cam and on the roller, relative to the largest possible
+      !> thickness and to the largest depth [-]
       real(wp) :: error = 0.0_wp
+      !> The same between the places of the cam, where a curve through them has no value that was computed [-]
+      real(wp) :: between = 0.0_wp
       !> Steps, and cycles that were solved
       integer :: steps = 0, cycles = 0
       !> The way: a row for each of the times of `history_rows` [unit of each quantity]
@@ -84,6 +87,7 @@ contains
       call change_rates(plan, model, now, rates, aged%cycles, error)
       if (.not. allocated(error)) call march(plan, model, now, rates, aged, error)
       if (.not. allocated(error)) call add_slip_error(plan, model, now, rates, aged, error)
+      if (.not. allocated(error)) aged%between = relative(missed_between(now), expected_scales(plan, now, rates, 0.0_wp))
       call add_context(error, "running in")
    end subroutine run_in
 
@@ -129,12 +133,14 @@ contains
       !> What the running-in is made of
       type(plan_t), intent(out) :: plan
 
+      integer :: i
+
       plan%running = case%running_in
       plan%numerics = case%numerics
       plan%temperature = case%operating_point%oil_temperature
       if (allocated(case%wear)) plan%wear = case%wear
       allocate (model%surface)
-      allocate (model%surface%cam_film(plan%running%places), model%surface%cam_wear(plan%running%places), source=0.0_wp)
+      call set_cam(model%surface, [(0.0_wp, i=1, plan%running%places)], [(0.0_wp, i=1, plan%running%places)])
       if (.not. allocated(case%tribofilm)) return
       plan%film = case%tribofilm
       model%surface%roughness_ratio = plan%film%roughness_ratio
@@ -374,7 +380,9 @@ contains
                & "depth worn away from the roller", "running_in", surface%roller_wear, scope)
             call append_quantity(list, prefix//"estimated_error_of_running_in", "1", "estimate of the largest error of a "// &
                & "thickness relative to the largest possible one, or of a depth relative to the largest, from the steps over "// &
-               & "hours and the error of the slip", "running_in", aged(lobe)%error, scope)
+               & "hours and the error of the slip, at the places of the cam", "running_in", aged(lobe)%error, scope)
+            call append_quantity(list, prefix//"estimated_error_between_places", "1", "estimate of the same between places: "// &
+               & "what a curve through every other place misses at those left out", "running_in", aged(lobe)%between, scope)
             call append_quantity(list, prefix//"running_in_steps", "1", "steps over the hours of running", "running_in", &
                & real(aged(lobe)%steps, wp), scope)
             call append_quantity(list, prefix//"running_in_cycles", "1", "cycles solved for these steps", "running_in", &

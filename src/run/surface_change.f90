@@ -7,7 +7,7 @@
 !> over the turn.
 module camroller_surface_change
    use camroller_kinds, only : wp, two_pi
-   use camroller_cam_surface, only : cam_surface_t, place_angle
+   use camroller_cam_surface, only : cam_surface_t, place_angle, set_cam
    use camroller_case, only : numerics_t
    use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
@@ -19,7 +19,8 @@ module camroller_surface_change
    implicit none
    private
 
-   public :: surfaces_t, rates_t, plan_t, change_rates, move_surfaces, set_surface, differences, expected_scales, relative
+   public :: surfaces_t, rates_t, plan_t, change_rates, move_surfaces, set_surface, differences, missed_between, &
+      & expected_scales, relative
 
    !> Thicknesses and depths: places of the cam, then the roller
    type :: surfaces_t
@@ -129,9 +130,8 @@ contains
 
       integer :: n
 
-      n = size(surface%cam_film)
-      surface%cam_film = now%film(:n)
-      surface%cam_wear = now%wear(:n)
+      n = size(now%film) - 1
+      call set_cam(surface, now%film(:n), now%wear(:n))
       surface%roller_film = now%film(n + 1)
       surface%roller_wear = now%wear(n + 1)
    end subroutine set_surface
@@ -163,6 +163,33 @@ contains
             & abs(one%wear(n) - other%wear(n))]
       end associate
    end function differences
+
+   !> What may be missed between the places of the cam: a cubic through two places on either side, every other one, misses this at
+   !> the place between them. Curves through all places miss less, as their places are half as far from each other.
+   pure function missed_between(now) result(largest)
+      !> The surfaces
+      type(surfaces_t), intent(in) :: now
+      !> Of thicknesses and depths of the cam; none on the roller [m]
+      real(wp) :: largest(3)
+
+      associate (n => size(now%film) - 1)
+         largest = [missed(now%film(:n)), missed(now%wear(:n)), 0.0_wp]
+      end associate
+
+   contains
+
+      !> Of thicknesses or depths.
+      pure function missed(values) result(most)
+         !> At the places [m]
+         real(wp), intent(in) :: values(:)
+         !> The most [m]
+         real(wp) :: most
+
+         most = maxval(abs((9.0_wp*(cshift(values, 1) + cshift(values, -1)) - cshift(values, 3) - cshift(values, -3))/16.0_wp &
+            & - values))
+      end function missed
+
+   end function missed_between
 
    !> Largest possible thickness, largest depth of the cam, and depth of the roller after a time at the same rates.
    pure function expected_scales(plan, now, rates, time) result(scales)

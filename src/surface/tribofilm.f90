@@ -33,7 +33,7 @@ module camroller_tribofilm
       !> Error allowed for thickness and depth after that, relative to the largest possible thickness and to the largest depth [-]
       real(wp) :: accuracy = 1.0e-3_wp
       !> Places on the cam
-      integer :: places = 180
+      integer :: places = 360
    end type running_in_t
 
    !> Avogadro constant, exact since 2019 [1/mol]

@@ -1,7 +1,7 @@
 !> Hours of running: growth of films and wear of surfaces, and what they make of the cycle.
 module test_running_in
    use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
-   use camroller_cam_surface, only : place_angle
+   use camroller_cam_surface, only : place_angle, value_at_angle
    use camroller_case, only : case_t
    use camroller_cycle, only : cycle_t, state_at
    use camroller_error, only : error_t, kind_deck, kind_domain
@@ -34,6 +34,7 @@ contains
          new_unittest("surfaces that change within a turn, and accuracies that are none, are errors", test_refused), &
          new_unittest("wear that falls to a part of what was foreseen is as accurate as asked", test_falling_wear), &
          new_unittest("the stated error covers what the error of the slip does to films and depths", test_slip_error), &
+         new_unittest("films and depths between the places are those of more places, within what is stated", test_between), &
          new_unittest("hours in which nothing changes change no bit", test_nothing), &
          new_unittest("a film that grows changes the cycle, whose energy closes", test_feedback), &
          new_unittest("wear that is next to nothing has no part in estimates of errors", test_no_wear), &
@@ -316,6 +317,50 @@ contains
          & maxval(abs(one%surface%cam_wear - other%surface%cam_wear))/maxval(other%surface%cam_wear), &
          & abs(one%surface%roller_wear/other%surface%roller_wear - 1.0_wp))
    end function largest_difference
+
+   !> With feedback and without
+   subroutine test_between(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: numbers(3) = [24, 37, 180]
+      type(case_t) :: case
+      type(model_t) :: model, fine
+      type(aged_t) :: aged, finer
+      type(error_t), allocatable :: failure
+      ! Difference, by the measure of the estimate [-]; value and slope with the places and with eight times as many [m], [m/rad]
+      real(wp) :: found, value, slope, other
+      character(len=60) :: words
+      integer :: i, k, feedback
+
+      do feedback = 0, 1
+         do k = 1, size(numbers)
+            case = running_case()
+            case%running_in%places = numbers(k)
+            if (feedback == 0) case%tribofilm%roughness_ratio = 0.0_wp
+            if (feedback == 0) case%tribofilm%coefficient = case%asperity%boundary_coefficient
+            call make_model(case, model, error)
+            if (allocated(error)) return
+            fine = model
+            call run_in(case, model, aged, failure)
+            case%running_in%places = 8*numbers(k)
+            if (.not. allocated(failure)) call run_in(case, fine, finer, failure)
+            if (allocated(failure)) call test_failed(error, failure%message)
+            if (allocated(error)) return
+            found = 0.0_wp
+            do i = 1, 3600
+               call value_at_angle(model%surface%film_curve, 0.1_wp*i*degree, value, slope)
+               call value_at_angle(fine%surface%film_curve, 0.1_wp*i*degree, other, slope)
+               found = max(found, abs(value - other)/case%tribofilm%largest_thickness)
+               call value_at_angle(model%surface%wear_curve, 0.1_wp*i*degree, value, slope)
+               call value_at_angle(fine%surface%wear_curve, 0.1_wp*i*degree, other, slope)
+               found = max(found, abs(value - other)/maxval(fine%surface%cam_wear))
+            end do
+            write (words, "(i4, 3es11.3)") numbers(k), found, aged%between, finer%between
+            call check(error, found <= aged%between + finer%between + aged%error + finer%error .and. found > 0.1_wp*aged%between, &
+               & words)
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_between
 
    subroutine test_nothing(error)
       type(error_type), allocatable, intent(out) :: error

@@ -2,7 +2,7 @@
 module test_spin_slopes
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, degree
-   use camroller_cam_surface, only : place_angle
+   use camroller_cam_surface, only : place_angle, set_cam
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_kinematics, only : rotation_names
@@ -263,10 +263,10 @@ contains
          if (allocated(error)) return
          allocate (model%surface)
          ! places coarse enough for differences of the step
-         model%surface%cam_film = [(5.0e-8_wp*(1.0_wp + sin(2.0_wp*place_angle(i, 24))), i=1, 24)]
          model%surface%roller_film = 4.0e-8_wp
          model%surface%roughness_ratio = 2.0_wp
          model%surface%largest_thickness = 1.2e-7_wp
+         call set_cam(model%surface, [(5.0e-8_wp*(1.0_wp + sin(2.0_wp*place_angle(i, 24))), i=1, 24)], [(0.0_wp, i=1, 24)])
          model%boundary%film_coefficient = 0.07_wp
          call compare(error, model, "tribofilm, "//trim(film_law_names(law)))
          if (allocated(error)) return

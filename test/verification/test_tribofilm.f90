@@ -1,8 +1,8 @@
 !> Growth of tribofilms, wear, stress below the surface, and surfaces that are known at places of the cam.
 module test_tribofilm
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller_cam_surface, only : cam_surface_t, meet_surfaces, meeting_t, place_angle, value_at_angle
-   use camroller_kinds, only : wp
+   use camroller_cam_surface, only : cam_surface_t, meet_surfaces, meeting_t, place_angle, set_cam, value_at_angle
+   use camroller_kinds, only : wp, two_pi
    use camroller_tribofilm, only : growth_rate, thickness_after, tribofilm_t
    use camroller_wear, only : largest_shear, largest_shear_depth, orthogonal_shear, orthogonal_shear_depth, sliding_distance, &
       & time_in_contact, worn_per_second
@@ -21,7 +21,8 @@ contains
          new_unittest("growth follows stress and temperature as a reaction with a barrier", test_reaction), &
          new_unittest("stresses below a line contact are those of its stress field", test_stress), &
          new_unittest("wear and sliding distance of a contact, by hand", test_wear), &
-         new_unittest("what is known at places is smooth, periodic, within bounds, with exact slopes", test_places) &
+         new_unittest("what is known at places is smooth, periodic, within bounds, with exact slopes", test_places), &
+         new_unittest("curves go through the places, and miss a sine between them as in closed form", test_curve) &
          ]
    end subroutine collect_tribofilm
 
@@ -121,18 +122,22 @@ contains
       type(cam_surface_t) :: surface
       type(meeting_t) :: here, ahead, behind
       ! Value and slope [m], [m/rad]
-      real(wp) :: value, slope
+      real(wp) :: value, slope, film(48)
       real(wp), parameter :: h = 1.0e-5_wp
       integer :: i
 
-      surface%cam_film = [(1.0e-8_wp*(1.0_wp + sin(3.0_wp*place_angle(i, 48))), i=1, 48)]
-      surface%cam_film(7) = 9.0e-8_wp
+      film = [(1.0e-8_wp*(1.0_wp + sin(3.0_wp*place_angle(i, 48))), i=1, 48)]
+      film(7) = 9.5e-8_wp
       surface%roller_film = 2.0e-8_wp
       surface%roughness_ratio = 2.0_wp
       surface%largest_thickness = 1.0e-7_wp
+      call set_cam(surface, film, 10.0_wp*film)
       do i = -400, 400
-         call value_at_angle(surface%cam_film, 0.0317_wp*i, value, slope)
-         call check(error, value >= 0.0_wp .and. value <= 9.0e-8_wp, "bounds")
+         call value_at_angle(surface%wear_curve, 0.0317_wp*i, value, slope)
+         call check(error, value >= 0.0_wp, "a depth below zero")
+         if (allocated(error)) return
+         call value_at_angle(surface%film_curve, 0.0317_wp*i, value, slope)
+         call check(error, value >= 0.0_wp .and. value <= surface%largest_thickness, "bounds")
          if (allocated(error)) return
          call meet_surfaces(surface, 0.0317_wp*i, 1.0e-7_wp, here)
          call meet_surfaces(surface, 0.0317_wp*i + h, 1.0e-7_wp, ahead)
@@ -143,12 +148,54 @@ contains
          call check(error, abs((ahead%covered - behind%covered)/(2.0_wp*h) - here%covered_slope) < 1.0e-7_wp, "cover")
          if (allocated(error)) return
       end do
-      call value_at_angle(surface%cam_film, place_angle(20, 48), value, slope)
-      call check(error, abs(value - (surface%cam_film(19) + 4.0_wp*surface%cam_film(20) + surface%cam_film(21))/6.0_wp) &
-         & < 1.0e-22_wp, "at a place")
-      if (allocated(error)) return
       call value_at_angle([2.0_wp, 2.0_wp, 2.0_wp], 0.3_wp, value, slope)
       call check(error, abs(value - 2.0_wp) < 4.0_wp*epsilon(1.0_wp) .and. abs(slope) < 4.0_wp*epsilon(1.0_wp), "a constant")
    end subroutine test_places
+
+   !> Between two places a cubic spline through a smooth function misses it by `t^2 (1 - t)^2 h^4/24` times the fourth derivative,
+   !> in the middle 1/384; the next term is of the order of `(3 h)^2`, 0.04 with 96 places and 0.15 with 49.
+   subroutine test_curve(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: numbers(2) = [96, 49]
+      type(cam_surface_t) :: surface
+      ! Value, slope, the most that is missed at and between places [m]; distance of places [rad]
+      real(wp) :: value, slope, missed(2), h
+      real(wp), allocatable :: depths(:)
+      integer :: i, n, k
+
+      do k = 1, size(numbers)
+         n = numbers(k)
+         h = two_pi/n
+         depths = [(depth_at(place_angle(i, n)), i=1, n)]
+         call set_cam(surface, 0.0_wp*depths, depths)
+         missed = 0.0_wp
+         do i = 1, n
+            call value_at_angle(surface%wear_curve, place_angle(i, n), value, slope)
+            missed(1) = max(missed(1), abs(value - depths(i)))
+            call value_at_angle(surface%wear_curve, place_angle(i, n) + 0.5_wp*h, value, slope)
+            missed(2) = max(missed(2), abs(value - depth_at(place_angle(i, n) + 0.5_wp*h)))
+         end do
+         ! round-off of angles and of 6 terms, of 3e-9 m
+         call check(error, missed(1) < 1.0e-23_wp, "the curve does not go through the places")
+         if (allocated(error)) return
+         call check(error, abs(missed(2)*384.0_wp/((3.0_wp*h)**4*1.0e-9_wp) - 1.0_wp) < (3.0_wp*h)**2, "between the places")
+         if (allocated(error)) return
+         call check(error, abs(sum(surface%wear_curve) - sum(depths)) < 1.0e-13_wp*sum(depths), "the mean changes")
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> A depth.
+      pure function depth_at(angle) result(depth)
+         !> Cam angle [rad]
+         real(wp), intent(in) :: angle
+         !> The depth [m]
+         real(wp) :: depth
+
+         depth = 1.0e-9_wp*(2.0_wp + sin(3.0_wp*angle))
+      end function depth_at
+
+   end subroutine test_curve
 
 end module test_tribofilm
