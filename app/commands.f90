@@ -29,6 +29,7 @@ module camroller_commands
    use camroller_model, only : model_t
    use camroller_new_file, only : check_place, save_text
    use camroller_number_text, only : counted, integer_text
+   use camroller_output_kind, only : cam_kind, drawing_kind, output_kind_t, table_kind
    use camroller_remarks, only : remark_t
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
@@ -142,7 +143,7 @@ contains
       path = config%output
       if (path == "") path = "-"
       inputs(1)%text = config%subject
-      if (path /= "-") call check_place(path, inputs, error)
+      if (path /= "-") call check_place(path, table_kind, inputs, error)
       if (allocated(error)) return
       call export_csv(config%subject, merge(export_summary, export_series, config%is_summary), config%case_number, path, error, &
          & config%columns, config%form)
@@ -279,29 +280,33 @@ contains
       call list_deck_files(deck, inputs)
       if (.not. allocated(error) .and. config%drawing /= "") then
          call draw_mechanism(case, text, error)
-         if (.not. allocated(error)) call save_beside(inputs, config%drawing, text, error)
+         if (.not. allocated(error)) call save_beside(inputs, config%drawing, drawing_kind, text, error)
       end if
       if (.not. allocated(error) .and. config%lift_drawing /= "") then
          call draw_lift(case, text, error)
-         if (.not. allocated(error)) call save_beside(inputs, config%lift_drawing, text, error)
+         if (.not. allocated(error)) call save_beside(inputs, config%lift_drawing, drawing_kind, text, error)
       end if
       if (.not. allocated(error) .and. config%cam_table /= "") then
          call write_cam_table(case, text, error)
-         if (.not. allocated(error)) call save_beside(inputs, config%cam_table, text, error)
+         if (.not. allocated(error)) call save_beside(inputs, config%cam_table, cam_kind, text, error)
       end if
    end subroutine show_case
 
    !> Write a file that replaces none of those that were read.
-   subroutine save_beside(inputs, path, text, error)
+   subroutine save_beside(inputs, path, kind, text, error)
       !> Files that were read
       type(line_t), intent(in) :: inputs(:)
-      !> Path of the file, and what it holds
-      character(len=*), intent(in) :: path, text
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> What it is
+      type(output_kind_t), intent(in) :: kind
+      !> What it holds
+      character(len=*), intent(in) :: text
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      call check_place(path, inputs, error)
-      if (.not. allocated(error)) call save_text(path, text, error)
+      call check_place(path, kind, inputs, error)
+      if (.not. allocated(error)) call save_text(path, kind, text, error)
    end subroutine save_beside
 
    !> Lines as comments of a deck.

@@ -19,6 +19,7 @@ module camroller_ehl_command
    use camroller_ehl_summary, only : make_ehl_summary
    use camroller_model, only : model_t
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
+   use camroller_output_kind, only : result_kind
    use camroller_run_command, only : check_cases, find_place
    use camroller_run_facts, only : write_facts
    use camroller_streams, only : print_lines, tell
@@ -53,7 +54,7 @@ contains
       call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
-      call find_place(config, deck, "_ehl.h5", path, error)
+      call find_place(config, deck, result_kind, "_ehl.h5", path, error)
       if (allocated(error)) return
       call make_sweep_case(deck, 1, case, error)
       if (.not. allocated(error)) call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)

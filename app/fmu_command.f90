@@ -10,6 +10,7 @@ module camroller_fmu_command
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, drop_sweep
    use camroller_fmu_file, only : write_fmu
+   use camroller_output_kind, only : fmu_kind
    use camroller_run_command, only : find_place
    use camroller_streams, only : print_lines
    use camroller_system_file, only : resolve_path
@@ -37,7 +38,7 @@ contains
       character(len=:), allocatable :: path, library
 
       call read_deck(deck, config%subject, config%overrides, error)
-      if (.not. allocated(error)) call find_place(config, deck, ".fmu", path, error)
+      if (.not. allocated(error)) call find_place(config, deck, fmu_kind, ".fmu", path, error)
       if (allocated(error)) return
       call drop_sweep(deck)
       library = config%library//"/"

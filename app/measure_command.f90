@@ -4,7 +4,7 @@
 !> In: the command line. Out: the table. A case that cannot be measured is recorded and does not end the others; the
 !> program still ends with its kind of error.
 module camroller_measure_command
-   use camroller_error, only : error_t, add_context, kind_usage, raise
+   use camroller_error, only : error_t, add_context
    use camroller_audit, only : new_audit_table, audit_case
    use camroller_audit_page, only : write_audit_page
    use camroller_case, only : case_t
@@ -18,6 +18,7 @@ module camroller_measure_command
    use camroller_limits_page, only : write_limits_page
    use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
+   use camroller_output_kind, only : result_kind
    use camroller_console, only : console_t, seconds_since, start_console
    use camroller_run_command, only : check_cases, find_place
    use camroller_run_facts, only : write_facts
@@ -50,9 +51,7 @@ contains
       type(hdf5_columns_t) :: columns
       type(deck_t) :: deck
 
-      if (config%is_laws .and. config%output /= "") then
-         call raise(error, kind_usage, "'study --laws' prints a table and writes no file: leave '--output' out")
-      else if (config%is_laws) then
+      if (config%is_laws) then
          call read_deck(deck, config%subject, config%overrides, error, columns)
          if (.not. allocated(error)) call show_laws(deck, error)
       else
@@ -147,7 +146,7 @@ contains
       call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
-      call find_place(config, deck, trim(endings(what)), path, error)
+      call find_place(config, deck, result_kind, trim(endings(what)), path, error)
       if (allocated(error)) return
       call start_console(progress, config%is_quiet)
       call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)

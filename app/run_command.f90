@@ -18,6 +18,7 @@ module camroller_run_command
    use camroller_mistakes, only : line_t
    use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text
+   use camroller_output_kind, only : output_kind_t
    use camroller_remarks, only : remarks_t
    use camroller_result_table, only : write_result_table
    use camroller_stop_signal, only : heed_stop_signals
@@ -159,12 +160,14 @@ contains
       end do
    end subroutine check_cases
 
-   !> File to write, which must not be one that the deck is read from.
-   subroutine find_place(config, deck, ending, path, error)
+   !> File to write, which may replace an earlier one of its kind, and none that the deck is read from.
+   subroutine find_place(config, deck, kind, ending, path, error)
       !> What to do
       type(config_t), intent(in) :: config
       !> The deck
       type(deck_t), intent(in) :: deck
+      !> What the file will be
+      type(output_kind_t), intent(in) :: kind
       !> Ending in place of the deck's, where no file is asked for
       character(len=*), intent(in) :: ending
       !> Path of the file
@@ -176,7 +179,7 @@ contains
 
       path = output_path(config, ending)
       call list_deck_files(deck, inputs)
-      call check_place(path, inputs, error)
+      call check_place(path, kind, inputs, error)
    end subroutine find_place
 
    !> File to write: as asked for, or the deck's name with another ending in the present folder.

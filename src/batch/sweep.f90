@@ -18,6 +18,7 @@ module camroller_sweep
    use camroller_monitor, only : monitor_t
    use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text
+   use camroller_output_kind, only : result_kind
    use camroller_part_file, only : close_part, find_parts, open_part, part_beginning, part_name, sync_part
    use camroller_part_scan, only : index_t, study_facts_t
    use camroller_part_sink, only : part_sink_t
@@ -119,7 +120,7 @@ contains
       study%path = path
       call study_facts(deck, study%facts)
       call list_deck_files(deck, inputs)
-      call check_place(path, inputs, error)
+      call check_place(path, result_kind, inputs, error)
       if (allocated(error)) return
       study%first = int((options%shard - 1)*int(study%facts%cases, int64)/options%shards) + 1
       study%last = int(options%shard*int(study%facts%cases, int64)/options%shards)

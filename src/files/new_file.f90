@@ -2,14 +2,15 @@
 !> end.
 !>
 !> In: the path of a file to be written, files that are read. Out: a path to write to; the file under its name, or an error and
-!> no temporary file. Only a regular file is ever replaced, and never one that the program reads. If the target is a symbolic
-!> link, the file that it refers to is replaced, and the link stays.
+!> no temporary file. Only an earlier output of the same kind is ever replaced, and never a file that the program reads. If the
+!> target is a symbolic link, the file that it refers to is replaced, and the link stays.
 module camroller_new_file
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file, kind_usage
    use camroller_file_facts, only : facts_of_path, file_facts_t, is_same_file, kind_in_words
    use camroller_mistakes, only : line_t
    use camroller_number_text, only : integer_text
+   use camroller_output_kind, only : is_earlier_output, output_kind_t
    use camroller_raw_file, only : append_text, close_raw, create_raw, open_raw, raw_file_t, settle_raw
    use camroller_system_file, only : is_folder, process_number, remove_file, rename_file, resolve_path
    use camroller_text_file, only : folder_of
@@ -34,16 +35,20 @@ module camroller_new_file
 
 contains
 
-   !> An error where a file may not be written: it would replace one that is read, or something that is no regular file.
-   subroutine check_place(path, inputs, error)
+   !> An error where a file may not be written: it would replace one that is read, something that is no regular file, or a file that
+   !> is no earlier output of its kind.
+   subroutine check_place(path, kind, inputs, error)
       !> Path of the file
       character(len=*), intent(in) :: path
+      !> What it will be
+      type(output_kind_t), intent(in) :: kind
       !> Files that are read
       type(line_t), intent(in) :: inputs(:)
       !> Usage or file error
       type(error_t), allocatable, intent(out) :: error
 
       type(file_facts_t) :: facts
+      logical :: is_earlier
       integer :: i
 
       facts = facts_of_path(path)
@@ -54,16 +59,25 @@ contains
             & "another name by --output")
          return
       end do
-      if (.not. facts%is_regular) call raise(error, kind_file, "cannot write '"//path//"': it is "//kind_in_words(facts)// &
-         & ", and only regular files are replaced")
+      if (.not. facts%is_regular) then
+         call raise(error, kind_file, "cannot write '"//path//"': it is "//kind_in_words(facts)//", and only regular files are "// &
+            & "replaced")
+         return
+      end if
+      call is_earlier_output(path, kind, is_earlier, error)
+      if (is_earlier .or. allocated(error)) return
+      call raise(error, kind_file, "'"//path//"' exists and is no earlier "//trim(kind%name)//" of camroller, which alone is "// &
+         & "replaced; give another name, or remove it first")
    end subroutine check_place
 
    !> Find out where to write; the file is still to be created.
-   subroutine begin_new_file(file, path, error)
+   subroutine begin_new_file(file, path, kind, error)
       !> The file
       type(new_file_t), intent(out) :: file
       !> Path of the finished file
       character(len=*), intent(in) :: path
+      !> What it will be
+      type(output_kind_t), intent(in) :: kind
       !> Usage error without a name; file error where no file can be there
       type(error_t), allocatable, intent(out) :: error
 
@@ -77,7 +91,7 @@ contains
          call raise(error, kind_usage, "a file to be written needs a name")
          return
       end if
-      call check_place(path, inputs, error)
+      call check_place(path, kind, inputs, error)
       if (allocated(error)) return
       facts = facts_of_path(path)
       if (facts%is_there) file%place = resolve_path(path)
@@ -136,9 +150,11 @@ contains
    end subroutine drop_new_file
 
    !> Write a text to a file, which appears under its name when it is complete.
-   subroutine save_text(path, text, error)
+   subroutine save_text(path, kind, text, error)
       !> Path of the file
       character(len=*), intent(in) :: path
+      !> What it is
+      type(output_kind_t), intent(in) :: kind
       !> The text
       character(len=*), intent(in) :: text
       !> File error
@@ -147,7 +163,7 @@ contains
       type(new_file_t) :: place
       type(raw_file_t) :: file
 
-      call begin_new_file(place, path, error)
+      call begin_new_file(place, path, kind, error)
       if (.not. allocated(error)) call create_raw(file, place%temporary, path, error)
       if (.not. allocated(error)) call append_text(file, text, error)
       call close_raw(file)

@@ -12,6 +12,7 @@ module camroller_fmu_file
    use camroller_fmu_variables, only : variable_t, list_variables, write_variables
    use camroller_mistakes, only : line_t
    use camroller_new_file, only : save_text
+   use camroller_output_kind, only : fmu_kind
    use camroller_number_text, only : hexadecimal_text
    use camroller_raw_file, only : find_files
    use camroller_record, only : checksum, text_words
@@ -72,7 +73,7 @@ contains
       call describe_fmu(version, identifier, case%title, token, two_pi/case%operating_point%speed, variables, text)
       call add_member("modelDescription.xml", text, members)
       call make_archive(members(size(members):1:-1), bytes, error)
-      if (.not. allocated(error)) call save_text(path, bytes, error)
+      if (.not. allocated(error)) call save_text(path, fmu_kind, bytes, error)
    end subroutine write_fmu
 
    !> Name of a model: that of its file, with other letters than identifiers have as `_`.

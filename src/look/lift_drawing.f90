@@ -10,6 +10,7 @@ module camroller_lift_drawing
    use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law, stop_angles
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_number_text, only : fixed_text, number_text
+   use camroller_output_kind, only : drawing_kind
    use camroller_sketch, only : escaped
    implicit none
    private
@@ -58,7 +59,7 @@ contains
       if (allocated(case%second_lift)) call add_lobe(case%second_lift, trim(case%title)//", second lobe", depth, body, error)
       if (allocated(error)) return
       drawing = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 '//fixed_text(left + width + 40.0_wp, 0)//" "// &
-         & fixed_text(depth, 0)//'" font-family="sans-serif" font-size="14">'//n// &
+         & fixed_text(depth, 0)//'" font-family="sans-serif" font-size="14">'//trim(drawing_kind%mark)//n// &
          & '<rect width="100%" height="100%" fill="white"/>'//n//body//"</svg>"//n
    end subroutine draw_lift
 

@@ -9,6 +9,7 @@ module camroller_sketch
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_number_text, only : fixed_text, number_text
+   use camroller_output_kind, only : drawing_kind
    use camroller_run, only : build_models
    implicit none
    private
@@ -251,9 +252,10 @@ contains
       height = scale*(high(2) - low(2)) + 2.0_wp*margin + line_height*(lines/2 + 1)
       drawing = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="'//fixed_text(left, 1)//" "//fixed_text(top, 1)//" "// &
          & fixed_text(width, 1)//" "//fixed_text(height, 1)//'" font-family="sans-serif" font-size="'// &
-         & fixed_text(letters, 1)//'">'//n//'<rect x="'//fixed_text(left, 1)//'" y="'//fixed_text(top, 1)//'" width="100%" '// &
-         & 'height="100%" fill="white"/>'//n//'<text x="'//fixed_text(left + 20.0_wp, 1)//'" y="'//fixed_text(top + 30.0_wp, 1)// &
-         & '" font-weight="bold">'//escaped(case%title)//'</text>'//n//body//legend
+         & fixed_text(letters, 1)//'">'//trim(drawing_kind%mark)//n//'<rect x="'//fixed_text(left, 1)//'" y="'// &
+         & fixed_text(top, 1)//'" width="100%" height="100%" fill="white"/>'//n//'<text x="'// &
+         & fixed_text(left + 20.0_wp, 1)//'" y="'//fixed_text(top + 30.0_wp, 1)//'" font-weight="bold">'// &
+         & escaped(case%title)//'</text>'//n//body//legend
       call add_bar(left + width - 30.0_wp)
       drawing = drawing//'</svg>'//n
 

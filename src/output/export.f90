@@ -4,7 +4,7 @@
 !> 17 significant digits that keep them exactly; or a single heading of names with units; or a JSON object of columns. Like a result
 !> file, the table appears under its name when it is complete.
 module camroller_export
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_hdf5_object, only : hdf5_object_t
@@ -13,6 +13,7 @@ module camroller_export
    use camroller_near_names, only : nearest_name
    use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
    use camroller_number_text, only : integer_text, write_number, number_length
+   use camroller_output_kind, only : table_kind
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t
    use camroller_result_columns, only : head_column, make_columns, open_result, read_column, table_t
    use camroller_streams, only : print_text
@@ -252,7 +253,7 @@ contains
       type(new_file_t) :: place
       type(raw_file_t) :: file
 
-      call begin_new_file(place, path, error)
+      call begin_new_file(place, path, table_kind, error)
       if (.not. allocated(error)) call create_raw(file, place%temporary, path, error)
       if (.not. allocated(error)) call write_rows(table, form, error, file)
       call close_raw(file)
@@ -351,7 +352,8 @@ contains
       end do
    end subroutine row_text
 
-   !> One column of a table in JSON; the first line opens the object, the last column closes it. What is no finite number is null.
+   !> One column of a table in JSON; the first line opens the object, the last column closes it. JSON has no infinite numbers: they
+   !> are texts that languages read as such, and what is no number is null.
    subroutine column_text(table, column, line)
       !> The table
       type(table_t), intent(in) :: table
@@ -373,8 +375,10 @@ contains
          else if (ieee_is_finite(table%numbers(row, column))) then
             call write_number(table%numbers(row, column), "e3", decimals, number)
             line = line//trim(adjustl(number))
-         else
+         else if (ieee_is_nan(table%numbers(row, column))) then
             line = line//"null"
+         else
+            line = line//trim(merge('"-Infinity"', '"Infinity" ', table%numbers(row, column) < 0.0_wp))
          end if
       end do
       line = line//"]}"

@@ -14,6 +14,7 @@ module camroller_output_file
       & flush_file, hand_over_file, reserve_file, write_integers
    use camroller_hdf5_attribute, only : make_scale, put_attribute
    use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
+   use camroller_output_kind, only : result_kind
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t, settle_raw
    use camroller_seal, only : seal_file
    use camroller_system_file, only : remove_file
@@ -24,7 +25,7 @@ module camroller_output_file
    public :: number_size, text_size, object_size, start_file, finish_file, abandon_output, check_open
 
    !> Attribute by which a result file is known
-   character(len=*), parameter :: result_format = "camroller result"
+   character(len=*), parameter :: result_format = trim(result_kind%mark)
    !> Space that a group or a dataset takes besides its values, generously [byte]
    real(wp), parameter :: object_size = 4096.0_wp
    !> Space that a number takes [byte]
@@ -148,7 +149,7 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      call begin_new_file(writer%place, writer%path, error)
+      call begin_new_file(writer%place, writer%path, result_kind, error)
       if (.not. allocated(error)) call try_path(writer, error)
       if (.not. allocated(error)) call create_file(writer%file, writer%place%temporary, writer%path, error)
       if (allocated(error)) call abandon_output(writer)

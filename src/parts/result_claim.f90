@@ -8,6 +8,7 @@ module camroller_result_claim
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
    use camroller_mistakes, only : line_t
+   use camroller_output_kind, only : result_kind
    use camroller_part_file, only : part_beginning
    use camroller_raw_file, only : append_words, close_raw, find_files, is_locked, open_raw, raw_file_t, read_words, wait_for_lock, &
       & word_size
@@ -21,10 +22,6 @@ module camroller_result_claim
    integer(int64), parameter :: lock_mark = int(z'436C6F636B727400', int64), end_mark = int(z'43656E6465647200', int64)
    !> Words at the beginning of an unfinished file that say whose it is
    integer, parameter :: examined_words = 2048
-   !> First word of an HDF5 file, in the order of this machine's bytes
-   character(len=8), parameter :: hdf5_mark = char(137)//"HDF"//char(13)//char(10)//char(26)//char(10)
-   !> What our result files say of themselves
-   character(len=*), parameter :: own_words = "camroller result"
    !> Byte with the version of HDF5's first block, and the word that says where the file ends in version 0
    integer, parameter :: version_byte = 9, end_word = 6
 
@@ -145,9 +142,9 @@ contains
       if (is_read .and. is_free) then
          letters = transfer(words(:count), letters)
          letters(word_size*count + 1:) = ""
-         if (letters(:len(hdf5_mark)) == hdf5_mark) then
+         if (index(letters, trim(result_kind%beginnings(1))) == 1) then
             ! A file that HDF5 has not finished says that it ends elsewhere than it does
-            verdict = index(letters, own_words) > 0
+            verdict = index(letters, trim(result_kind%mark)) > 0
             if (.not. verdict .and. count >= end_word .and. letters(version_byte:version_byte) == char(0)) then
                verdict = words(end_word) /= file%bytes
             end if

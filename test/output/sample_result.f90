@@ -5,6 +5,7 @@ module sample_result
    use camroller_error, only : error_t
    use camroller_layout, only : layout_of, layout_t
    use camroller_output, only : add_layout, output_t, write_outcome
+   use camroller_output_kind, only : result_kind
    use camroller_remarks, only : remark_lines
    use camroller_result, only : result_t
    use camroller_hdf5_object, only : hdf5_object_t
@@ -14,10 +15,10 @@ module sample_result
    private
 
    public :: new_sample, sample_value, scratch_path, write_old_file, is_old_file, same_content, expect_error
-   public :: check_text, check_number, write_case, write_failure
+   public :: check_text, check_number, write_case, write_failure, old_content
 
-   !> What stands in a file that must not be touched
-   character(len=*), parameter :: old_content = "old content"
+   !> What stands in a file that must not be touched; a new result may replace it
+   character(len=*), parameter :: old_content = trim(result_kind%beginnings(1))//" "//trim(result_kind%mark)
 
 contains
 

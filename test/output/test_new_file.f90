@@ -6,11 +6,12 @@ module test_new_file
    use camroller_file_facts, only : facts_of_path, file_facts_t, is_same_file, kind_in_words
    use camroller_mistakes, only : line_t
    use camroller_new_file, only : begin_new_file, check_place, drop_new_file, end_new_file, new_file_t
+   use camroller_output_kind, only : cam_kind, drawing_kind, fmu_kind, output_kind_t, result_kind, table_kind
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t, settle_raw
    use camroller_seal, only : check_seal, seal_file
    use camroller_system_file, only : remove_file
    use camroller_unfinished, only : remove_remembered
-   use sample_result, only : expect_error, scratch_path, write_old_file
+   use sample_result, only : expect_error, old_content, scratch_path, write_old_file
    implicit none
    private
 
@@ -30,6 +31,7 @@ contains
          new_unittest("a file that is given up leaves the earlier one", dropped_file_leaves_nothing), &
          new_unittest("what a signal would remove is what is unfinished", signals_remove_the_unfinished), &
          new_unittest("no file takes the place of one that is read", inputs_stay), &
+         new_unittest("a file takes the place of an earlier one of its kind alone", other_files_stay), &
          new_unittest("a seal goes with its bytes and with no others", seals_tell_damage) &
          ]
    end subroutine collect_new_file
@@ -65,7 +67,7 @@ contains
 
       path = scratch_path("new")
       call write_old_file(path)
-      call begin_new_file(place, path, raised)
+      call begin_new_file(place, path, result_kind, raised)
       call check(error, .not. allocated(raised), "no place")
       if (allocated(error)) return
       temporary = place%temporary
@@ -92,7 +94,7 @@ contains
       path = scratch_path("lost")
       call write_old_file(path)
       do i = 9, 11, 2
-         call begin_new_file(place, path, raised)
+         call begin_new_file(place, path, result_kind, raised)
          call write_letters_to(place%temporary, "1234567890")
          call end_new_file(place, int(i, int64), raised)
          call expect_error(error, raised, kind_file, "not all of it reached the disk")
@@ -119,7 +121,7 @@ contains
 
       path = scratch_path("dropped")
       call write_old_file(path)
-      call begin_new_file(place, path, raised)
+      call begin_new_file(place, path, result_kind, raised)
       temporary = place%temporary
       call write_letters_to(temporary, "12345")
       call drop_new_file(place)
@@ -128,10 +130,10 @@ contains
       call check(error, is_earlier(path) .and. .not. facts%is_there, "something is left, or the earlier file is gone")
       call remove_file(path)
       if (allocated(error)) return
-      call begin_new_file(place, path//"/none/x", raised)
+      call begin_new_file(place, path//"/none/x", result_kind, raised)
       call expect_error(error, raised, kind_file, "there is no folder")
       if (allocated(error)) return
-      call begin_new_file(place, "", raised)
+      call begin_new_file(place, "", result_kind, raised)
       call expect_error(error, raised, kind_usage, "needs a name")
    end subroutine dropped_file_leaves_nothing
 
@@ -144,12 +146,12 @@ contains
       character(len=:), allocatable :: path
 
       path = scratch_path("signal")
-      call begin_new_file(first, path//"1", raised)
+      call begin_new_file(first, path//"1", result_kind, raised)
       call write_letters_to(first%temporary, "1")
-      call begin_new_file(second, path//"2", raised)
+      call begin_new_file(second, path//"2", result_kind, raised)
       call write_letters_to(second%temporary, "2")
       call end_new_file(second, 1_int64, raised)
-      call begin_new_file(third, path//"3", raised)
+      call begin_new_file(third, path//"3", result_kind, raised)
       call write_letters_to(third%temporary, "3")
       call remove_remembered()
       facts(1) = facts_of_path(first%temporary)
@@ -171,16 +173,54 @@ contains
       inputs(2)%text = ""
       inputs(3)%text = path
       call write_old_file(path)
-      call check_place(path//"-other", inputs, raised)
+      call check_place(path//"-other", result_kind, inputs, raised)
       call check(error, .not. allocated(raised), "another name is refused")
       if (allocated(error)) return
-      call check_place(path, inputs, raised)
+      call check_place(path, result_kind, inputs, raised)
       call expect_error(error, raised, kind_usage, "which is read")
       call remove_file(path)
       if (allocated(error)) return
-      call check_place("/", inputs, raised)
+      call check_place("/", result_kind, inputs, raised)
       call expect_error(error, raised, kind_file, "it is a folder")
    end subroutine inputs_stay
+
+   subroutine other_files_stay(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(output_kind_t), parameter :: kinds(*) = [result_kind, table_kind, drawing_kind, cam_kind, fmu_kind]
+      type(error_t), allocatable :: raised
+      type(new_file_t) :: place
+      type(line_t) :: none(0)
+      character(len=:), allocatable :: path
+      integer :: i, k
+
+      path = scratch_path("kinds")
+      do i = 1, size(kinds)
+         ! The mark without the beginning, the beginning without the mark, both, and a file that is empty
+         call write_letters_to(path, " "//trim(kinds(i)%mark))
+         call begin_new_file(place, path, kinds(i), raised)
+         call expect_error(error, raised, kind_file, "' exists and is no earlier "//trim(kinds(i)%name)//" of camroller")
+         call remove_file(path)
+         if (allocated(error)) return
+         call write_letters_to(path, trim(kinds(i)%beginnings(1)))
+         call check_place(path, kinds(i), none, raised)
+         call expect_error(error, raised, kind_file, "give another name, or remove it first")
+         call remove_file(path)
+         if (allocated(error)) return
+         call write_letters_to(path, trim(kinds(i)%beginnings(1))//" "//trim(kinds(i)%mark)//"...")
+         do k = 1, size(kinds)
+            call check_place(path, kinds(k), none, raised)
+            call check(error, allocated(raised) .neqv. i == k, trim(kinds(i)%name)//" and "//trim(kinds(k)%name))
+            if (allocated(error)) return
+         end do
+         call remove_file(path)
+         call write_letters_to(path, "")
+         call check_place(path, kinds(i), none, raised)
+         call check(error, .not. allocated(raised), "an empty file is kept")
+         call remove_file(path)
+         if (allocated(error)) return
+      end do
+   end subroutine other_files_stay
 
    subroutine seals_tell_damage(error)
       type(error_type), allocatable, intent(out) :: error
@@ -226,7 +266,7 @@ contains
       type(file_facts_t) :: facts
 
       facts = facts_of_path(path)
-      verdict = facts%bytes == len("old content") + 1
+      verdict = facts%bytes == len(old_content) + 1
    end function is_earlier
 
    !> Write a file.

@@ -10,6 +10,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 THESIS = ROOT / "decks/thesis.nml"
 GRID = ("key_1 = 'operating_point.speed_rpm' from_1 = 400 to_1 = 900 count_1 = 6 "
         "key_2 = 'operating_point.oil_temperature_degC' values_2 = 40, 60, 80, 100")
+# what a result may replace: how an earlier one begins, and what it says of itself
+EARLIER_RESULT = b"\x89HDF camroller result"
 # facts of the run itself, and references between objects, whose bits are addresses
 NOT_COMPARED = {"date", "command", "REFERENCE_LIST", "DIMENSION_LIST"}
 

@@ -10,6 +10,8 @@ import time
 
 import pytest
 
+from sweeps import EARLIER_RESULT
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
 FILM = ["--set", "sweep.values_1=300", *COARSE]
@@ -25,7 +27,7 @@ def test_a_signal_leaves_nothing_behind(camroller, tmp_path, number, deck):
     """Its own unfinished file goes; the earlier one stays, and those that others write or that have such a name."""
     others = [tmp_path / "new.h5.unfinished-1-0", tmp_path / "new.h5.unfinished-notes"]
     for path in [tmp_path / "new.h5", *others]:
-        path.write_text("earlier")
+        path.write_bytes(EARLIER_RESULT)
     words = [camroller, "run", str(ROOT / f"decks/{deck}.nml"), "-o", "new.h5", "--set", "output.angle_step_deg=0.002"]
     before = sorted(os.listdir(tmp_path))
     with subprocess.Popen(words, cwd=tmp_path, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
@@ -37,8 +39,7 @@ def test_a_signal_leaves_nothing_behind(camroller, tmp_path, number, deck):
     assert running.returncode == -number, (running.returncode, errors)
     assert (output, errors) == (b"", b"")
     assert sorted(os.listdir(tmp_path)) == before
-    assert all(path.read_text() == "earlier" for path in others)
-    assert (tmp_path / "new.h5").read_text() == "earlier"
+    assert all(path.read_bytes() == EARLIER_RESULT for path in [tmp_path / "new.h5", *others])
 
 
 def test_a_signal_to_a_thread_of_a_library_leaves_nothing_behind(camroller, tmp_path):

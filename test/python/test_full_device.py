@@ -7,6 +7,8 @@ import subprocess
 
 import pytest
 
+from sweeps import EARLIER_RESULT
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FILE_ERROR, UNFINISHED = 6, 8  # exit codes
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
@@ -129,15 +131,16 @@ def test_a_closed_pipe_is_no_error(camroller, results, name, ignored):
 @pytest.mark.parametrize("what", ["--series", "--summary"])
 @pytest.mark.parametrize("part", [0.0, 0.5, 0.99])
 def test_a_table_on_a_full_disk_leaves_the_earlier_one(camroller, results, disk, what, part):
-    size = len(run(camroller, "export", "result.h5", what, folder=results).stdout)
+    printed = run(camroller, "export", "result.h5", what, folder=results).stdout
+    size, earlier = len(printed), printed + "earlier\n"
     target = disk / "folder" / "table.csv"
     target.parent.mkdir()
-    target.write_text("earlier")
+    target.write_text(earlier)
     leave(disk, 4096*int(part*size/4096))
     finished = run(camroller, "export", "result.h5", what, "-o", target, folder=results)
     assert finished.returncode == FILE_ERROR
     assert finished.stderr == f"camroller: cannot write '{target}': No space left on device\n"
-    assert target.read_text() == "earlier"
+    assert target.read_text() == earlier
     assert os.listdir(target.parent) == ["table.csv"]
 
 
@@ -152,7 +155,7 @@ def test_a_table_is_what_is_printed(camroller, results, tmp_path):
 def test_a_file_on_a_full_disk_leaves_the_earlier_one(camroller, results, disk, command):
     target = disk / "folder" / "new.h5"
     target.parent.mkdir()
-    target.write_text("earlier")
+    target.write_bytes(EARLIER_RESULT)
     leave(disk, 4096)
     words = [str(target) if word == "new.h5" else word for word in PRINTED[command]]
     if command == "merge":
@@ -163,7 +166,7 @@ def test_a_file_on_a_full_disk_leaves_the_earlier_one(camroller, results, disk, 
     finished = run(camroller, *words, folder=results)
     assert finished.returncode == FILE_ERROR
     assert f"cannot write '{target}': " in finished.stderr
-    assert target.read_text() == "earlier"
+    assert target.read_bytes() == EARLIER_RESULT
     assert sorted(os.listdir(target.parent)) == before
 
 

@@ -10,6 +10,8 @@ import subprocess
 import h5py
 import pytest
 
+from sweeps import EARLIER_RESULT
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 USAGE, FILE_ERROR = 2, 6  # exit codes
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
@@ -148,16 +150,52 @@ def test_only_regular_files_are_replaced(camroller, folder, command, kind, monke
 @pytest.mark.parametrize("command", ["run", "export"])
 def test_a_link_is_followed(camroller, folder, command):
     (folder / "store").mkdir()
-    (folder / "store/old").write_text("earlier")
     (folder / "new").symlink_to("store/old")
     words = ["run", "lift.nml", *COARSE]
+    (folder / "store/old").write_bytes(EARLIER_RESULT)
     if command == "export":
         assert run(camroller, *words, "-o", "r.h5", folder=folder).returncode == 0
         words = ["export", "r.h5"]
+        (folder / "store/old").write_bytes(b"")
+    before = (folder / "store/old").read_bytes()
     assert run(camroller, *words, "-o", "new", folder=folder).returncode == 0
     assert (folder / "new").is_symlink()
     assert os.listdir(folder / "store") == ["old"]
-    assert (folder / "store/old").read_bytes() != b"earlier"
+    assert (folder / "store/old").read_bytes() != before
+
+
+def written(folder):
+    """Words that write a file of each kind, before its name: text that `check` and `export` write, results."""
+    return {"result": ["run", "lift.nml", *COARSE, "-o"], "another result": ["sweep", "cams.nml", *COARSE, "-o"],
+            "series": ["export", "r.h5", "-o"], "summary": ["export", "r.h5", "--summary", "--format", "plain", "-o"],
+            "columns": ["export", "r.h5", "--columns", "contact_load", "--format", "json", "-o"],
+            "mechanism": ["check", "lift.nml", "--draw"], "lift": ["check", "lift.nml", "--draw-lift"],
+            "cam": ["check", "lift.nml", "--cam"]}
+
+
+KINDS = {"result": "result", "another result": "result", "series": "exported table", "summary": "exported table",
+         "columns": "exported table", "mechanism": "drawing", "lift": "drawing", "cam": "table of a cam"}
+
+
+@pytest.mark.parametrize("what", KINDS)
+def test_a_file_replaces_an_earlier_one_of_its_kind_alone(camroller, folder, what):
+    """What a user has written is not lost, nor an output of another kind, whatever its name."""
+    words = written(folder)
+    for name, other in (("result", "r.h5"), ("cam", "cam.csv"), ("mechanism", "m.svg"), ("series", "r.csv")):
+        assert run(camroller, *words[name], other, folder=folder).returncode == 0
+    shutil.copy(folder / "r.h5", folder / "other.h5")
+    others = {"csv.nml": "", "other.h5": "result", "cam.csv": "table of a cam", "m.svg": "drawing", "r.csv": "exported table"}
+    before = everything(folder)
+    for other, kind in others.items():
+        if kind == KINDS[what]:
+            continue
+        result = run(camroller, *words[what], other, folder=folder)
+        assert result.returncode == FILE_ERROR
+        assert f"'{other}' exists and is no earlier {KINDS[what]} of camroller, which alone is replaced; give another" in result.stderr
+        assert everything(folder) == before
+    for _ in range(2):
+        result = run(camroller, *words[what], "new", folder=folder)
+        assert result.returncode == 0, result.stderr
 
 
 def test_only_regular_files_are_read_as_results(camroller, tmp_path):

@@ -12,6 +12,8 @@ import numpy
 import pytest
 import xarray
 
+from sweeps import EARLIER_RESULT
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks/thesis.nml"
 ANGLE_STEP = 5.0  # degree
@@ -135,14 +137,14 @@ def expect_failure(finished, target, words):
     assert finished.returncode == FILE_ERROR, finished.stderr
     assert words in finished.stderr
     assert finished.stderr.startswith("camroller: ") and finished.stderr.count("\n") == 1
-    assert target.read_text() == "old content"
+    assert target.read_bytes() == EARLIER_RESULT
     assert os.listdir(target.parent) == [target.name]
 
 
 @pytest.mark.parametrize("limit", [10_000, 700_000])
 def test_a_limit_on_file_sizes_is_an_error(camroller, tmp_path, limit):
     target = tmp_path / "old.h5"
-    target.write_text("old content")
+    target.write_bytes(EARLIER_RESULT)
     finished = run(camroller, target, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
     expect_failure(finished, target, f"cannot write '{target}': File too large")
 
@@ -157,7 +159,7 @@ def test_a_full_disk_is_an_error(camroller, tmp_path, room):
     try:
         target = disk / "folder" / "old.h5"
         target.parent.mkdir()
-        target.write_text("old content")
+        target.write_bytes(EARLIER_RESULT)
         (disk / "filling").write_bytes(bytes(2**21 - 2**13 - 1024 * room))
         finished = run(camroller, target)
         expect_failure(finished, target, "No space left on device")
@@ -178,7 +180,7 @@ def test_a_path_that_cannot_be_written_is_an_error(camroller, place, words):
 
 def test_a_killed_run_leaves_the_earlier_file(camroller, tmp_path):
     target = tmp_path / "old.h5"
-    target.write_text("old content")
+    target.write_bytes(EARLIER_RESULT)
     command = [camroller, "run", str(DECK), "-o", str(target), "--set", "output.angle_step_deg=0.002"]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as running:
         until = time.monotonic() + 20.0
@@ -186,4 +188,4 @@ def test_a_killed_run_leaves_the_earlier_file(camroller, tmp_path):
             time.sleep(0.001)
         running.kill()
     assert running.returncode == -signal.SIGKILL, "it ended before it could be killed"
-    assert target.read_text() == "old content"
+    assert target.read_bytes() == EARLIER_RESULT

@@ -154,7 +154,7 @@ def test_resume_does_not_replace_a_file_that_is_no_result(camroller, deck, tmp_p
     before = path.read_bytes()
     result = run(camroller, "sweep", deck, "--resume", folder=tmp_path)
     assert result.returncode == FILE
-    assert "'deck.h5' exists and is not a result of this sweep" in result.stderr
+    assert f"'deck.h5' exists and is {'no earlier result of camroller' if content else 'not a result of this sweep'}" in result.stderr
     assert path.read_bytes() == before
 
 
