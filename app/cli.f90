@@ -6,7 +6,7 @@ module camroller_cli
    use camroller_command_table, only : command_t, find_command, find_option, list_commands
    use camroller_deck, only : override_t, add_override
    use camroller_export, only : export_formats
-   use camroller_mistakes, only : line_t
+   use camroller_mistakes, only : add_line, line_t
    use camroller_kinds, only : wp
    use camroller_near_names, only : nearest_name
    use camroller_names, only : write_names, index_of_name
@@ -29,6 +29,10 @@ module camroller_cli
       character(len=:), allocatable :: output
       !> Values given beside the deck
       type(override_t), allocatable :: overrides(:)
+      !> How often each option of the command was given, in the order of its table
+      integer, allocatable :: given(:)
+      !> Keys that a point has a value of, as `group.key=`
+      type(line_t), allocatable :: point_keys(:)
       !> Say nothing but errors?
       logical :: is_quiet = .false.
       !> A page instead of a deck?
@@ -113,12 +117,13 @@ contains
       config%lift_drawing = ""
       config%cam_table = ""
       config%library = ""
-      allocate (config%overrides(0))
+      allocate (config%overrides(0), config%point_keys(0))
       call list_commands(commands)
       names = [(commands(i)%name, i=1, size(commands))]
       call read_command(arguments, names, config, error)
       if (allocated(error)) return
       associate (command => commands(find_command(commands, config%command)))
+         allocate (config%given(size(command%options)), source=0)
          words = 0
          i = 2
          do while (i <= size(arguments))
@@ -136,10 +141,78 @@ contains
             end if
             i = i + 1
          end do
-         if (config%is_help .or. command%subject == "" .or. index(command%subject, "[") > 0 .or. config%subject /= "") return
+         if (config%is_help) return
+         if (command%subject /= "" .and. index(command%subject, "[") == 0 .and. config%subject == "") then
+            call raise(error, kind_usage, "'"//config%command//"' needs the name of a file"//see(config))
+            return
+         end if
+         call check_together(command, config, error)
+         if (.not. allocated(error)) call check_values(config, error)
       end associate
-      call raise(error, kind_usage, "'"//config%command//"' needs the name of a file"//see(config))
    end subroutine read_arguments
+
+   !> An error where options are given together of which one would have no effect, or one twice.
+   subroutine check_together(command, config, error)
+      !> The command
+      type(command_t), intent(in) :: command
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: word
+      integer :: i, first, last
+      logical :: is_there
+
+      do i = 1, size(command%options)
+         associate (option => command%options(i))
+            if (config%given(i) > 1 .and. .not. option%may_be_repeated) then
+               call raise(error, kind_usage, "option '"//trim(option%name)//"' is given twice"//see(config))
+               return
+            end if
+            if (config%given(i) == 0) cycle
+            first = 1
+            do while (first <= len(option%excluded))
+               last = first + index(option%excluded(first:)//" ", " ") - 2
+               word = option%excluded(first:last)
+               first = last + 2
+               is_there = config%subject /= ""
+               if (index(word, "--") == 1) is_there = config%given(find_option(command, word)) > 0
+               if (.not. is_there) cycle
+               call raise(error, kind_usage, "'"//config%command//"' does not take '"//trim(option%name)//"' together with '"// &
+                  & word//"'"//see(config))
+               return
+            end do
+         end associate
+      end do
+   end subroutine check_together
+
+   !> An error where a value given beside the deck would have no effect: of a sweep that is left out, or beside that of a point.
+   subroutine check_values(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i, k, found
+
+      do i = 1, size(config%overrides)
+         if (.not. config%has_no_sweep .or. index(adjustl(config%overrides(i)%text), "sweep.") /= 1) cycle
+         call raise(error, kind_usage, "'"//config%overrides(i)%text//"' is of &sweep, which '--point' and '--no-sweep' "// &
+            & "leave out"//see(config))
+         return
+      end do
+      do k = 1, size(config%point_keys)
+         associate (key => config%point_keys(k)%text)
+            found = count([(index(config%overrides(i)%text, key) == 1, i=1, size(config%overrides))])
+            if (found < 2) cycle
+            call raise(error, kind_usage, "'"//key(:len(key) - 1)//"' has "//integer_text(found)//" values, and a point takes "// &
+               & "one; several are a sweep: --set sweep.key_1="//key(:len(key) - 1)//" --set sweep.values_1=VALUE,VALUE"// &
+               & see(config))
+            return
+         end associate
+      end do
+   end subroutine check_values
 
    !> The first word.
    subroutine read_command(arguments, names, config, error)
@@ -203,6 +276,7 @@ contains
             & see(config))
          return
       end if
+      config%given(found) = config%given(found) + 1
       option = trim(command%options(found)%name)
       if (command%options(found)%value /= "") then
          if (equals > 0 .and. index(arguments(position)%text, "--") == 1) then
@@ -280,16 +354,15 @@ contains
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: known
+      character(len=:), allocatable :: known, text
 
       select case (option)
       case ("--point")
          config%has_no_sweep = .true.
-         if (index(value, ".") == 0 .or. index(value, ".") > max(1, index(value, "="))) then
-            call add_point("operating_point."//value)
-         else
-            call add_point(value)
-         end if
+         text = value
+         if (index(value, ".") == 0 .or. index(value, ".") > max(1, index(value, "="))) text = "operating_point."//value
+         call add_override(config%overrides, text)
+         if (index(text, "=") > 0) call add_line(config%point_keys, text(:index(text, "=")))
       case ("--no-sweep")
          config%has_no_sweep = .true.
       case ("--laws")
@@ -325,25 +398,6 @@ contains
             call raise(error, kind_usage, "two options name the same file, '"//value//"'"//see(config))
          end if
       end select
-
-   contains
-
-      !> One more value of the point; a key has one.
-      subroutine add_point(text)
-         !> As `group.key=value`
-         character(len=*), intent(in) :: text
-
-         integer :: i, last
-
-         last = index(text, "=")
-         do i = 1, size(config%overrides)
-            if (last == 0 .or. index(config%overrides(i)%text, text(:last)) /= 1) cycle
-            call raise(error, kind_usage, "'"//text(:last - 1)//"' has two values, and a point takes one; several are a "// &
-               & "sweep: --set sweep.key_1="//text(:last - 1)//" --set sweep.values_1=VALUE,VALUE"//see(config))
-            return
-         end do
-         call add_override(config%overrides, text)
-      end subroutine add_point
 
    end subroutine set_option_of_looking
 

@@ -17,6 +17,10 @@ module camroller_command_table
       character(len=16) :: value = ""
       !> Meaning, lines parted by `n`
       character(len=:), allocatable :: meaning
+      !> What it cannot be given with: names of options of the command, or its subject, single blanks between them
+      character(len=:), allocatable :: excluded
+      !> May it be given more than once?
+      logical :: may_be_repeated = .false.
    end type option_t
 
    !> One command
@@ -35,7 +39,7 @@ module camroller_command_table
    !> Column where meanings of options and commands begin
    integer, parameter :: meaning_column = 29
    !> Meanings of options that several commands have
-   character(len=*), parameter :: meaning_set = "replaces a value of the deck; may be repeated", &
+   character(len=*), parameter :: meaning_set = "replaces a value of the deck; of several values of a key the last counts", &
       & meaning_quiet = "print errors only", meaning_repeats = "runs whose median time counts; 5 where not given", &
       & meaning_threads = "threads, 1 to 1024; as many as there are cores where not given", &
       & meaning_log = "seconds between lines in a log; 60 where not given", &
@@ -64,9 +68,9 @@ contains
          & "An earlier file of that name is replaced only when the new one is complete. Ends with a table of the results."//n// &
          & "DECK may be -, the standard input.")
       call add_option(commands, "--output", "-o", "FILE", "file to write")
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--point", "", "key=value", "one case: the deck without its &sweep, with this value, as "// &
-         & "speed_rpm=3000 of"//n//"&operating_point or group.key=value; may be repeated")
+         & "speed_rpm=3000 of"//n//"&operating_point or group.key=value", may_be_repeated=.true.)
       call add_option(commands, "--no-sweep", "", "", "one case: the deck without its &sweep")
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
@@ -81,8 +85,8 @@ contains
          & "the file")
       call add_option(commands, "--resume", "", "", "continue from part files, or start where there are none; nothing to do "// &
          & "where"//n//"FILE has every case of this study; an error where FILE is anything else")
-      call add_option(commands, "--log-every", "", "S", meaning_log)
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--log-every", "", "S", meaning_log, excluded="--quiet")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
       call add(commands, "merge", "DECK", "one file from the parts of a sweep", &
@@ -91,23 +95,23 @@ contains
       call add_option(commands, "--output", "-o", "FILE", meaning_default)
       call add_option(commands, "--partial", "", "", "also where cases are missing: they have status -1, FILE has the"//n// &
          & "attributes 'complete' 0 and 'missing_cases'; the parts stay for 'camroller sweep"//n//"--resume'")
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
       call add(commands, "rerun", "FILE.h5", "compute a file again and compare every bit", &
          & "Compute the cases of a result file (of 'ehl' too) again from the deck stored in it, and compare every bit."//n// &
          & "Reports what differs and by how much, and which build made the file. The exit code is 7 where something differs.")
       call add_option(commands, "--threads", "-j", "N", meaning_threads)
-      call add_option(commands, "--log-every", "", "S", meaning_log)
+      call add_option(commands, "--log-every", "", "S", meaning_log, excluded="--quiet")
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
       call add(commands, "check", "DECK", "read and check a deck, print the resulting values", &
          & "Read a deck, check every case of it, and print what follows from it: oil, cam, ramps, loads, margins and film"//n// &
          & "of the deck's own case, then every value. Of many cases a few are run, to estimate the time, the memory and the"//n// &
          & "disk space of all of them. DECK may be -, the standard input.")
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--point", "", "key=value", "the deck without its &sweep, with this value, as in "// &
-         & "'camroller run'")
+         & "'camroller run'", may_be_repeated=.true.)
       call add_option(commands, "--no-sweep", "", "", "the deck without its &sweep")
       call add_option(commands, "--draw", "", "FILE.svg", "draw the mechanism to scale")
       call add_option(commands, "--draw-lift", "", "FILE.svg", "draw lift, velocity, acceleration and jerk, of a table also "// &
@@ -131,8 +135,8 @@ contains
          & "accuracies, and"//n//"solved over the cycle on several grids, beside the film law of the deck;"//n// &
          & "writes the deck's name with _film_study.h5")
       call add_option(commands, "--laws", "", "", "the film laws instead: every case with each of them, and the range of "// &
-         & "results;"//n//"prints a table, writes no file")
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+         & "results;"//n//"prints a table, writes no file", excluded="--film --quick --repeats --output --quiet")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
       call add(commands, "audit", "DECK", "measure the influence and the cost of each effect", &
@@ -141,7 +145,7 @@ contains
          & "Prints a table and writes one HDF5 file: the deck's name with _audit.h5 in the present folder, or FILE.")
       call add_option(commands, "--output", "-o", "FILE", "file to write")
       call add_option(commands, "--repeats", "", "N", meaning_repeats)
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
       call add(commands, "limit", "DECK", "speeds up to which the train follows its cam", &
@@ -154,7 +158,7 @@ contains
       call add_option(commands, "--step", "", "SPEED", "step of the speeds tried [rev/min]; 100 where not given")
       call add_option(commands, "--seating", "", "SPEED", "speed of the valve at its seat that is too fast [m/s]; 0.5 where "// &
          & "not given")
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--quiet", "-q", "", "print the table only")
 
       call add(commands, "ehl", "DECK", "solve the contact over the cycle, with squeeze", &
@@ -165,7 +169,7 @@ contains
          & "129 to 513 until film and mean slip on two grids differ by less than ehl.accuracy; a case in which they"//n// &
          & "never do is an error and has no numbers.")
       call add_option(commands, "--output", "-o", "FILE", "file to write")
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
    end subroutine list_measurements
 
@@ -187,14 +191,16 @@ contains
       call add_option(commands, "--output", "-o", "FILE", "file to write")
       call add_option(commands, "--fmi", "", "N", "version of FMI, 2 or 3; 3 where not given")
       call add_option(commands, "--library", "", "FOLDER", "folder of the library")
-      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
       call add(commands, "export", "FILE.h5", "print results as comma-separated values or JSON", &
-         & "Print the series of one case, or the summary of all cases, as comma-separated values or JSON.")
+         & "Print the series of one case, or the summary of all cases, as comma-separated values or JSON. A speed at which"//n// &
+         & "something would happen that never does is infinite: Infinity, in JSON the text ""Infinity"". A case without a"//n// &
+         & "result has NaN, in JSON null.")
       call add_option(commands, "--series", "", "", "series over the cam angle (the default)")
       call add_option(commands, "--case", "", "N", "number of the case, from 0 as in the file; 0 where not given")
-      call add_option(commands, "--summary", "", "", "one row for each case")
+      call add_option(commands, "--summary", "", "", "one row for each case", excluded="--series --case")
       call add_option(commands, "--columns", "", "NAMES", "these columns, separated by commas, beside the cam angle or the "// &
          & "keys that vary")
       call add_option(commands, "--format", "", "FORM", "'csv', with a line of names and one of units (the default), 'plain', "// &
@@ -206,8 +212,8 @@ contains
          & "Compute key numbers of a small deck and compare them with values that are built in. Takes a few seconds, reads"//n// &
          & "and writes no file. Prints machine and build; where a number differs, the exit code is 7.")
       call add(commands, "help", "[COMMAND]", "this, or more about a command", "Print the list of commands, or the help of one.")
-      call add_option(commands, "--man", "", "", "the help of all commands as a manual page")
-      call add_option(commands, "--completion", "", "", "completion of commands and options for bash")
+      call add_option(commands, "--man", "", "", "the help of all commands as a manual page", excluded="COMMAND --completion")
+      call add_option(commands, "--completion", "", "", "completion of commands and options for bash", excluded="COMMAND")
    end subroutine list_texts
 
    !> Append a command; every command takes `--help`.
@@ -233,11 +239,15 @@ contains
    end subroutine add
 
    !> Append an option to the last command.
-   subroutine add_option(commands, name, short, value, meaning)
+   subroutine add_option(commands, name, short, value, meaning, excluded, may_be_repeated)
       !> The commands
       type(command_t), intent(inout) :: commands(:)
-      !> Long name, short name, what its value is, meaning
+      !> Long name, short name, what its value is, meaning; what follows is added to it
       character(len=*), intent(in) :: name, short, value, meaning
+      !> What it cannot be given with, as in `option_t`; nothing where not given
+      character(len=*), intent(in), optional :: excluded
+      !> May it be given more than once? Not where not given
+      logical, intent(in), optional :: may_be_repeated
 
       type(option_t), allocatable :: longer(:)
 
@@ -250,6 +260,11 @@ contains
             option%short = short
             option%value = value
             option%meaning = meaning
+            option%excluded = ""
+            if (present(excluded)) option%excluded = excluded
+            if (present(may_be_repeated)) option%may_be_repeated = may_be_repeated
+            if (option%may_be_repeated) option%meaning = option%meaning//";"//n//"may be repeated"
+            if (option%excluded /= "") option%meaning = option%meaning//";"//n//"not together with "//option%excluded
          end associate
       end associate
    end subroutine add_option
