@@ -271,7 +271,7 @@ contains
       call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", per_minute)
       call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", per_minute)
       call add_value(unit//"; natural frequency of the train ", "train_frequency", 1.0_wp)
-      call add_value(" 1/s, load of a train that vibrates over a rigid one's ", "load_factor", 1.0_wp)
+      call add_value(" Hz, load of a train that vibrates over a rigid one's ", "load_factor", 1.0_wp)
       if (find_quantity(result%summary, prefix//"surge_estimate_1") > 0) then
          call add_value(", surge of the spring in its first mode ", "surge_estimate_1", 1.0_wp)
          text = text//" N"

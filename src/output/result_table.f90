@@ -10,6 +10,7 @@ module camroller_result_table
    use camroller_hdf5_read, only : has_member, list_members, member_length, read_numbers
    use camroller_names, only : name_length
    use camroller_number_text, only : integer_text, number_text, right_text
+   use camroller_result, only : worse_of
    use camroller_result_columns, only : make_columns, open_result, read_column, table_t
    use camroller_torque_list, only : torque_count, torque_list, torque_series
    implicit none
@@ -84,7 +85,7 @@ contains
          & "'camroller export --summary' has those of each"
    end subroutine write_result_table
 
-   !> Read a scalar, of several lobe shapes the worst: the smallest of what is smallest, else the largest in magnitude.
+   !> Read a scalar, of several lobe shapes the worst.
    subroutine read_worst(file, column, table, position, worst, error)
       !> The file
       type(hdf5_object_t), intent(in) :: file
@@ -109,13 +110,7 @@ contains
       do while (has_member(file, path_of(column, lobe)))
          call read_numbers(file, path_of(column, lobe), [0], [size(table%numbers, 1)], others, error)
          if (allocated(error)) return
-         associate (values => table%numbers(:, position))
-            if (column%statistic == "min_") then
-               values = min(values, others)
-            else
-               values = merge(others, values, abs(others) > abs(values))
-            end if
-         end associate
+         table%numbers(:, position) = worse_of(column%statistic, table%numbers(:, position), others)
          if (lobe == 2 .and. worst /= "") worst = worst//", "
          if (lobe == 2) worst = worst//trim(column%heading)
          lobe = lobe + 1

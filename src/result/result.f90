@@ -13,7 +13,7 @@ module camroller_result
    private
 
    public :: quantity_t, quantity_list_t, append_numbered, append_quantity, take_quantities, result_t, get_series, get_summary, &
-      & find_quantity, check_numbers, lobe_scope
+      & find_quantity, check_numbers, lobe_scope, worse_of
    public :: scope_length, scope_camshaft, scope_engine, scope_case
 
    !> Length of a scope
@@ -80,6 +80,22 @@ module camroller_result
    end type result_t
 
 contains
+
+   !> Of a scalar of two lobe shapes the worse one: the smaller of what is smallest, else the larger in magnitude.
+   elemental function worse_of(statistic, one, other) result(worse)
+      !> What of a series the scalar is: `min_`, `max_`, `mean_`, or blank
+      character(len=*), intent(in) :: statistic
+      !> Its values [unit of the scalar]
+      real(wp), intent(in) :: one, other
+      !> The worse value [unit of the scalar]
+      real(wp) :: worse
+
+      if (statistic == "min_") then
+         worse = min(one, other)
+      else
+         worse = merge(other, one, abs(other) > abs(one))
+      end if
+   end function worse_of
 
    !> Append a quantity to a list, which grows as it has to.
    pure subroutine append_quantity(list, name, unit, description, source, value, scope, least)

@@ -125,7 +125,7 @@ def test_check_prints_estimates_for_a_rigid_train(camroller):
     # 2471 and 2357 rev/min and 2012 Hz are those of an independent program
     assert "pivot's joint unloads above 2470 rev/min of the camshaft, " \
            "a lash adjuster pumps up above 2360 rev/min of the camshaft" in done.stdout
-    assert "natural frequency of the train 2010 1/s" in done.stdout
+    assert "natural frequency of the train 2010 Hz" in done.stdout
 
 
 def test_results_have_estimates_beside_computed_values(tmp_path, camroller):

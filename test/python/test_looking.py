@@ -161,9 +161,22 @@ def test_export_selects_columns_and_formats(camroller, tmp_path):
     assert "did you mean 'contact_load'?" in result.stderr
 
 
+def test_export_writes_infinite_speeds_as_text_and_missing_numbers_as_null(camroller, tmp_path):
+    path = tmp_path / "a.h5"
+    run(camroller, "run", "decks/thesis.nml", "-o", path, "--quiet", "--point", "speed_rpm=300")
+    path.write_bytes(path.read_bytes()[:-32])  # without the seal of the numbers as they were
+    with h5py.File(path, "r+") as file:
+        for name, value in (("contact_loss_speed", np.inf), ("spring_margin", -np.inf), ("margin_event", np.nan)):
+            file[f"summary/{name}"][0] = value
+    text = run(camroller, "export", path, "--summary", "--format", "json").stdout
+    table = json.loads(text, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
+    values = {column["name"]: column["values"][0] for column in table["columns"]}
+    assert [values[name] for name in ("contact_loss_speed", "spring_margin", "margin_event")] == ["Infinity", "-Infinity", None]
+
+
 def test_study_of_laws_refuses_an_output_file(camroller, tmp_path):
     words = run(camroller, "study", "decks/thesis.nml", "--laws", "-o", tmp_path / "x.h5", code=2).stderr
-    assert "writes no file: leave '--output' out" in words and not (tmp_path / "x.h5").exists()
+    assert "'study' does not take '--laws' together with '--output'" in words and not (tmp_path / "x.h5").exists()
 
 
 def test_study_of_laws_shows_the_range_that_runs_give(camroller, tmp_path):
@@ -181,6 +194,24 @@ def test_study_of_laws_shows_the_range_that_runs_give(camroller, tmp_path):
     told = re.findall(r"([\d.e-]+) to ([\d.e-]+)", next(line for line in text.splitlines() if "range of 4 laws" in line))[3]
     assert [float(value) for value in told] == pytest.approx([low, high], rel=5e-3)
     assert "> dowson_higginson" in text
+
+
+def test_study_of_laws_shows_the_worst_of_several_lobe_shapes(camroller, tmp_path):
+    point = ["decks/four_cylinder.nml", "--set", "sweep.values_1=1000", "--set", "sweep.values_2=90", "--set",
+             "second_lift.max_lift_mm=10.5"]
+    text = run(camroller, "study", *point, "--laws").stdout
+    run(camroller, "run", *point, "-o", tmp_path / "a.h5", "--quiet")
+    with h5py.File(tmp_path / "a.h5") as file:
+        scalars = {name: [file[f"summary/{first}{lobe}{last}"][0] for lobe in ("", "lobe_2_")] for name, first, last in (
+            ("slip", "mean_", "slip_ratio"), ("film", "min_", "film_thickness_min"), ("ratio", "min_", "film_ratio"))}
+    row = next(line for line in text.splitlines() if line.startswith("> ")).split()
+    assert float(row[5]) == pytest.approx(100 * max(scalars["slip"], key=abs), rel=5e-3)
+    assert float(row[6]) == pytest.approx(1e6 * min(scalars["film"]), rel=5e-3)
+    assert float(row[7]) == pytest.approx(min(scalars["ratio"]), rel=5e-3)
+    assert scalars["film"][0] > 1.01 * scalars["film"][1], "the film of the second shape can be told from the first's by three digits"
+    assert text.splitlines()[-1] == "  outside its range, mean slip, smallest film, film ratio: the worst of all lobe shapes"
+    assert "worst" not in run(camroller, "study", "decks/thesis.nml", "--laws", "--set", "sweep.values_1=600", "--set",
+                              "sweep.values_2=60").stdout
 
 
 def test_selftest_passes_and_names_the_build(camroller):
