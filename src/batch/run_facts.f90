@@ -8,6 +8,7 @@ module camroller_run_facts
    use camroller_error, only : error_t
    use camroller_deck, only : deck_t
    use camroller_deck_document, only : echo_t, get_echo
+   use camroller_deck_tables, only : wanted_columns
    use camroller_deck_sweep, only : measured_numbers, measured_prefix, sweep_numbers, sweep_size, sweep_t, sweep_words
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_text_attribute
@@ -312,7 +313,8 @@ contains
       end select
       is_at_hand = allocated(table%path)
       if (is_at_hand) is_at_hand = table%path == join_path(deck%folder, name)
-      if (.not. is_at_hand) call read_table(join_path(deck%folder, name), table, mistakes, error)
+      if (.not. is_at_hand) call read_table(join_path(deck%folder, name), table, mistakes, error, &
+         & wanted_columns(deck%settings, group))
       text = text//"table of &"//group//" with checksum "//hexadecimal(checksum([transfer(table%x, [0_int64]), &
          & transfer(table%y, [0_int64])], 0_int64))//new_line("a")
    end subroutine add_table

@@ -172,7 +172,8 @@ contains
       call add_numbers(schema, "segment_accelerations", anything, &
          & "shape of the acceleration at these angles, straight between them, positive, negative, positive; its "// &
          & "size follows from the maximum lift, that of the positive parts from the valve's rest at the end", is_optional=.true.)
-      call add_text(schema, "table", "file with two columns, cam angle in degrees and lift; "// &
+      call add_text(schema, "table", "file with two columns, cam angle in degrees and lift; or with a heading that names them "// &
+         & "cam_angle and valve_lift, or polar_angle and cam_radius, as the table of 'check --cam' does; "// &
          & "its path starts at the deck's folder", is_optional=.true.)
       call add_name(schema, "table_kind", table_kind_names, table_kind_names(1), "what the table holds: lift of the valve, or "// &
          & "how far the roller's centre moves away from the cam's, or the cam's radius over its polar angle, which increases "// &

@@ -10,14 +10,14 @@ module camroller_deck_tables
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_complaint, only : complain
    use camroller_kinematics, only : mechanism_t
-   use camroller_lift_forms, only : closes_triangle, follow_contour, kind_contour, kind_roller, table_kind_names, &
-      & valve_lift_of
+   use camroller_lift_forms, only : closes_triangle, follow_contour, kind_contour, kind_roller, kind_valve, &
+      & table_kind_names, valve_lift_of
    use camroller_text_file, only : join_path
-   use camroller_table_file, only : table_t, read_table, check_spacing
+   use camroller_table_file, only : check_spacing, columns_t, read_table, table_t
    implicit none
    private
 
-   public :: deck_tables_t, obtain_tables, get_lift_table, get_pressure_table
+   public :: deck_tables_t, obtain_tables, get_lift_table, get_pressure_table, wanted_columns
 
    !> Fewest rows of a table
    integer, parameter :: fewest_rows = 8
@@ -77,18 +77,23 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: path, unit
       type(error_t), allocatable :: error
+      type(columns_t) :: columns
       integer :: before
 
+      columns = wanted_columns(settings, group)
       path = get_word(settings, group, "table")
       if (path == "") return
       path = join_path(folder, path)
       if (allocated(table%path)) then
-         if (table%path == path .and. size(table%x) > 0) return
+         if (table%path == path .and. size(table%x) > 0) then
+            if (.not. allocated(table%columns)) return
+            if (all(table%columns%names == columns%names)) return
+         end if
       end if
       before = mistakes%count
-      call read_table(path, table, mistakes, error)
+      call read_table(path, table, mistakes, error, columns)
       if (allocated(error)) then
          call complain(mistakes, settings, group, "table", error%message)
       else if (mistakes%count == before .and. size(table%x) < fewest_rows) then
@@ -97,8 +102,33 @@ contains
       else if (mistakes%count == before) then
          call check_spacing(table, mistakes)
       end if
+      if (mistakes%count == before .and. table%unit /= "") then
+         unit = get_word(settings, group, "table_unit")
+         if (unit /= table%unit) call complain(mistakes, settings, group, "table_unit", "the heading of the table has '"// &
+            & trim(table%unit)//"', not '"//unit//"'")
+      end if
       if (mistakes%count > before) table%x = table%x(:0)
    end subroutine obtain
+
+   !> Columns that a table is read from where its heading has their names, as that of `check --cam` does.
+   function wanted_columns(settings, group) result(columns)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      !> The columns, and the lobe shape; blank for a table of pressure, whose columns have no names
+      type(columns_t) :: columns
+
+      columns%key = "lobe"
+      columns%number = merge(2, 1, group == "second_lift")
+      if (group == "gas_force") return
+      select case (findloc(table_kind_names, get_word(settings, group, "table_kind"), 1))
+      case (kind_valve)
+         columns%names = [character(len=len(columns%names)) :: "cam_angle", "valve_lift"]
+      case (kind_contour)
+         columns%names = [character(len=len(columns%names)) :: "polar_angle", "cam_radius"]
+      end select
+   end function wanted_columns
 
    !> Is a table a lift: from zero to zero, nowhere negative, around the nose, within one turn?
    subroutine check_lift(settings, group, table, mistakes)
@@ -121,7 +151,7 @@ contains
       type(mechanism_t) :: mechanism
       type(unit_t) :: unit
       logical :: is_there
-      integer :: kind, n, top
+      integer :: kind, n, top, first, last
 
       if (.not. allocated(table%x)) return
       n = size(table%x)
@@ -155,14 +185,16 @@ contains
          if (.not. closes_triangle(mechanism, to_si(unit, largest))) call row_mistake(table, top, "the roller cannot be so far "// &
             & "from the cam: its arm is shorter; is this a lift of the roller ('table_kind'), and is 'table_unit' right?", mistakes)
       end if
+      ! What is not lifted may be anywhere: a contour closes, wherever its polar angle begins
+      first = findloc(lift > nothing*largest, .true., dim=1)
+      last = findloc(lift > nothing*largest, .true., dim=1, back=.true.)
       if (abs(table%x(top) - nose_degrees) > nose_distance) then
          call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)// &
             & " degrees, is far from the "// &
             & "nose at "//number_text(nose_degrees, 6)//"; see 'table_nose_angle_deg' of &"//group, mistakes)
-      else if (table%x(1) < nose_degrees - 180.0_wp .or. table%x(n) > nose_degrees + 180.0_wp) then
-         call row_mistake(table, n, "the table must lie within 180 degrees of the nose at "//number_text(nose_degrees, &
-            & 6), &
-            & mistakes)
+      else if (table%x(first) < nose_degrees - 180.0_wp .or. table%x(last) > nose_degrees + 180.0_wp) then
+         call row_mistake(table, merge(first, last, table%x(first) < nose_degrees - 180.0_wp), "the lift must lie within 180 "// &
+            & "degrees of the nose at "//number_text(nose_degrees, 6), mistakes)
       else if (kind == kind_contour .and. mistakes%count == 0) then
          call check_contour(settings, group, table, mechanism, mistakes)
       end if

@@ -2,7 +2,7 @@
 !>
 !> In: a path. Out: the numbers as they stand in the file, or mistakes with file and line. Columns are parted by
 !> blanks, tabulators, commas or semicolons; `#` or `!` begins a comment; empty lines are skipped, and so is a heading: a first
-!> line whose first two words are no numbers.
+!> line whose first two words are no numbers. A table may have more columns where its heading names the two that are wanted.
 module camroller_table_file
    use camroller_kinds, only : wp
    use camroller_text_file, only : read_text_file
@@ -14,7 +14,19 @@ module camroller_table_file
    implicit none
    private
 
-   public :: table_t, read_table, check_spacing
+   public :: table_t, columns_t, read_table, check_spacing
+
+   !> Length of the name of a column, and of its unit
+   integer, parameter :: column_name_length = 16
+
+   !> What is wanted of a table with a heading
+   type :: columns_t
+      !> Names of the two columns
+      character(len=column_name_length) :: names(2) = ""
+      !> Rows that are wanted of a table with a column of this name: those with this number in it
+      character(len=column_name_length) :: key = ""
+      integer :: number = 0
+   end type columns_t
 
    !> One table
    type :: table_t
@@ -26,6 +38,10 @@ module camroller_table_file
       real(wp), allocatable :: y(:)
       !> Line of each row
       integer, allocatable :: line(:)
+      !> The columns that its heading named; not allocated where it has two without names
+      type(columns_t), allocatable :: columns
+      !> Unit of the second of them, as in `name [unit]`; blank where the heading has none
+      character(len=column_name_length) :: unit = ""
    end type table_t
 
    !> What parts columns
@@ -36,7 +52,7 @@ module camroller_table_file
 contains
 
    !> Read a table.
-   subroutine read_table(path, table, mistakes, error)
+   subroutine read_table(path, table, mistakes, error, columns)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The table; without rows where there are mistakes
@@ -45,11 +61,15 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
       !> File error where the file cannot be read
       type(error_t), allocatable, intent(out) :: error
+      !> Columns wanted where a heading names them; the first two where it does not
+      type(columns_t), intent(in), optional :: columns
 
       character(len=:), allocatable :: text
       type(text_lines_t) :: lines
       !> Numbers of one row [unit of the file]
       real(wp) :: row(2)
+      !> Places of the columns, of that with the key, and number of all; 0 without names
+      integer :: places(4)
       integer :: i, n, before
       logical :: has_row, is_first
 
@@ -63,9 +83,17 @@ contains
       n = 0
       before = mistakes%count
       is_first = .true.
+      places = 0
       do i = 1, lines%count
          associate (line => text(lines%first(i):lines%last(i)))
-            call read_row(path, line, i, is_first, row, has_row, mistakes)
+            if (is_first .and. has_words(line)) then
+               is_first = .false.
+               if (is_heading(line(:content_length(line)))) then
+                  if (present(columns)) call read_heading(line, columns, table, places)
+                  cycle
+               end if
+            end if
+            call read_row(path, line, i, places, table%columns, row, has_row, mistakes)
             if (.not. has_row) cycle
             n = n + 1
             table%x(n) = row(1)
@@ -83,35 +111,99 @@ contains
       table%line = table%line(:n)
    end subroutine read_table
 
+   !> Letters of a line before its comment.
+   pure function content_length(line) result(length)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Their number
+      integer :: length
+
+      length = scan(line, "#!") - 1
+      if (length < 0) length = len_trim(line)
+   end function content_length
+
+   !> Does a line hold more than a comment?
+   pure function has_words(line) result(verdict)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Does it?
+      logical :: verdict
+
+      verdict = verify(line(:content_length(line)), separators) > 0
+   end function has_words
+
+   !> Find the columns that a heading names.
+   subroutine read_heading(line, columns, table, places)
+      !> The heading
+      character(len=*), intent(in) :: line
+      !> What is wanted
+      type(columns_t), intent(in) :: columns
+      !> Gets the columns and the unit, where both names are there
+      type(table_t), intent(inout) :: table
+      !> Places of the two columns, of that with the key, and number of all; 0 where the names are not there
+      integer, intent(out) :: places(4)
+
+      character(len=:), allocatable :: marks, cell
+      integer :: first, last, length, count, i
+
+      places = 0
+      if (columns%names(1) == "") return
+      length = content_length(line)
+      marks = ",;"//char(9)
+      if (scan(line(:length), marks) == 0) marks = " "
+      count = 0
+      first = 1
+      do while (first <= length)
+         last = scan(line(first:length), marks)
+         last = merge(length, first + last - 2, last == 0)
+         cell = trim(adjustl(line(first:last)))
+         first = last + 2
+         if (cell == "") cycle
+         count = count + 1
+         do i = 1, 3
+            if (cell(:index(cell//" ", " ") - 1) /= trim(merge(columns%key, columns%names(min(i, 2)), i == 3))) cycle
+            places(i) = count
+            if (i == 2 .and. index(cell, "[") > 0) table%unit = cell(index(cell, "[") + 1:index(cell//"]", "]") - 1)
+         end do
+      end do
+      if (any(places(:2) == 0)) then
+         places = 0
+         table%unit = ""
+         return
+      end if
+      places(4) = count
+      table%columns = columns
+   end subroutine read_heading
+
    !> Read the two numbers of a line.
-   subroutine read_row(path, line, number, is_first, row, has_row, mistakes)
+   subroutine read_row(path, line, number, places, named, row, has_row, mistakes)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The line
       character(len=*), intent(in) :: line
       !> Its number
       integer, intent(in) :: number
-      !> Has no line held anything so far?
-      logical, intent(inout) :: is_first
+      !> Places of the two columns, of that with the key, and number of all; 0 where they have no names
+      integer, intent(in) :: places(4)
+      !> What is wanted where they have names
+      type(columns_t), allocatable, intent(in) :: named
       !> Its numbers [unit of the file]
       real(wp), intent(out) :: row(2)
-      !> Does the line hold a row?
+      !> Does the line hold a row that is wanted?
       logical, intent(out) :: has_row
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
       character(len=:), allocatable :: words
-      integer :: first, last, length, columns, status
+      ! Number in the column with the key [-], in one of the columns [unit of the file]
+      real(wp) :: key, value
+      integer :: first, last, length, columns, status, place
 
       row = 0.0_wp
       has_row = .false.
-      length = scan(line, "#!") - 1
-      if (length < 0) length = len_trim(line)
-      if (verify(line(:length), separators) == 0) return
-      if (is_first) then
-         is_first = .false.
-         if (is_heading(line(:length))) return
-      end if
+      length = content_length(line)
+      key = 0.0_wp
+      if (allocated(named)) key = named%number
       columns = 0
       last = 0
       do
@@ -120,21 +212,35 @@ contains
          last = scan(line(first:length), separators)
          last = merge(length, first + last - 2, last == 0)
          columns = columns + 1
-         if (columns > 2) cycle
+         place = columns
+         if (places(4) > 0) place = findloc(places(:3), columns, dim=1)
+         if (place == 0 .or. place > merge(3, 2, places(4) > 0)) cycle
          status = 1
          if (is_number(line(first:last)) .and. .not. is_beyond_range(line(first:last))) then
-            read (line(first:last), *, iostat=status) row(columns)
+            read (line(first:last), *, iostat=status) value
          end if
-         if (status == 0) cycle
-         call add_mistake(mistakes, "'"//shown(line(first:last))//"' is no finite number", number, first, last - first + 1, &
-            & path, line)
-         return
+         if (status /= 0) then
+            call add_mistake(mistakes, "'"//shown(line(first:last))//"' is no finite number", number, first, last - first + 1, &
+               & path, line)
+            return
+         end if
+         if (place == 3) key = value
+         if (place < 3) row(place) = value
       end do
-      has_row = columns == 2
-      if (columns == 0 .or. columns == 2) return
+      if (columns == 0) return
+      if (columns == merge(places(4), 2, places(4) > 0)) then
+         has_row = .true.
+         if (allocated(named)) has_row = nint(key) == named%number
+         return
+      end if
       words = ""
       if (index(line(:length), ",") > 0) words = "; a comma parts columns, decimals have a point"
-      call add_mistake(mistakes, "a row has two columns, not "//integer_text(columns)//words, number, 0, 0, path, line)
+      if (places(4) > 0) then
+         call add_mistake(mistakes, "a row has as many columns as its heading, "//integer_text(places(4))//", not "// &
+            & integer_text(columns)//words, number, 0, 0, path, line)
+      else
+         call add_mistake(mistakes, "a row has two columns, not "//integer_text(columns)//words, number, 0, 0, path, line)
+      end if
    end subroutine read_row
 
    !> Is a line a heading: are its first words no numbers, not even wrong ones?

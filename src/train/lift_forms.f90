@@ -11,12 +11,12 @@ module camroller_lift_forms
    implicit none
    private
 
-   public :: table_kind_names, kind_roller, kind_contour, valve_lift_of, closes_triangle, follow_contour
+   public :: table_kind_names, kind_valve, kind_roller, kind_contour, valve_lift_of, closes_triangle, follow_contour
 
    !> What a lift table holds: lift of the valve, or of the roller's centre away from the cam's, or radii of the cam
    character(len=*), parameter :: table_kind_names(*) = [character(len=11) :: "valve_lift", "roller_lift", "cam_contour"]
    !> Positions in `table_kind_names`
-   integer, parameter :: kind_roller = 2, kind_contour = 3
+   integer, parameter :: kind_valve = 1, kind_roller = 2, kind_contour = 3
 
 contains
 
