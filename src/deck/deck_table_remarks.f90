@@ -4,7 +4,7 @@
 !> In: settings and a table. Out: sentences. Nothing is refused for them.
 module camroller_deck_table_remarks
    use camroller_deck_tables, only : get_lift_table
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : degree, wp
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, find_outlier, lift_noise_t
    use camroller_mistakes, only : add_line, line_t
@@ -21,6 +21,9 @@ module camroller_deck_table_remarks
    integer, parameter :: digits = 6
    !> Usual lengths of an event [deg of cam angle], and usual lifts [m]
    real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
+   !> Part of the largest lift that counts as full lift, which a lift is near to for a degree or two [-]; distance of full lift from
+   !> the nose beyond what cams and measurements are off by [deg]
+   real(wp), parameter :: full_part = 0.999_wp, usual_offset = 5.0_wp
    !> Usual largest magnitudes of a gauge pressure: from pulses in a manifold to a truck's engine under full load [Pa]
    real(wp), parameter :: usual_pressure(2) = [2.0e3_wp, 3.0e7_wp]
    !> Gauge pressure that nothing is below: a vacuum, and some high weather [Pa]
@@ -41,17 +44,17 @@ contains
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
-      type(unit_t) :: unit
-      logical :: is_there
-      ! Largest lift [m]; length of the event [deg]
-      real(wp) :: largest, length
+      ! Cam angle from the nose [rad], lift of the valve [m]
+      real(wp), allocatable :: angle(:), lift(:)
+      ! Largest lift [m]; length of the event, middle of full lift from the nose [deg]
+      real(wp) :: largest, length, full
       character(len=:), allocatable :: words
-      integer :: i
+      integer :: i, first, last
 
       if (.not. allocated(table%x) .or. get_word(settings, group, "law") /= "table") return
       if (size(table%x) == 0) return
-      call find_unit(get_word(settings, group, "table_unit"), unit, is_there)
-      largest = to_si(unit, maxval(table%y))
+      call get_lift_table(settings, group, table, angle, lift)
+      largest = maxval(lift)
       if (largest < usual_lift(1) .or. largest > usual_lift(2)) then
          words = ""
          do i = 1, size(slips)
@@ -62,8 +65,13 @@ contains
             & " mm is unusual: engines have 1 to 25 mm"//words)
       end if
       call remark_noise(settings, group, table, remarks)
-      length = table%x(min(size(table%x), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)) &
-         & - table%x(max(1, findloc(table%y > 0.0_wp, .true., dim=1) - 1))
+      first = findloc(lift >= full_part*largest, .true., dim=1)
+      last = findloc(lift >= full_part*largest, .true., dim=1, back=.true.)
+      full = 0.5_wp*(angle(first) + angle(last))/degree
+      if (abs(full) > usual_offset) call add_line(remarks, table%path//": the largest lift is "//number_text(abs(full), 3)// &
+         & " degrees "//trim(merge("before", "behind", full < 0.0_wp))//" the nose, from which phases, gas pressure and cam "// &
+         & "angles count; is 'table_nose_angle_deg' of &"//group//" right?")
+      length = (angle(size(angle)) - angle(1))/degree
       if (length >= usual_event(1) .and. length <= usual_event(2)) return
       words = ""
       if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = &

@@ -44,6 +44,7 @@ module camroller_key_uses
       key_use_t("lift.table_unit", "law", "table"), &
       key_use_t("lift.table_nose_angle_deg", "law", "table"), &
       key_use_t("lift.smoothing_um", "law", "table"), &
+      key_use_t("mechanism.adjuster_tilt_deg", "masses.finger_kg", given), &
       key_use_t("lubricant.viscosity_Pa_s", "temperature_law", "direct"), &
       key_use_t("lubricant.temperature_points_degC", "temperature_law", point_laws), &
       key_use_t("lubricant.viscosity_points_Pa_s", "temperature_law", point_laws), &

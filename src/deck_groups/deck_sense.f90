@@ -44,6 +44,7 @@ contains
       call compare_viscosities(settings, left_out, remarks)
       call compare_lash(settings, left_out, remarks)
       call compare_boundary(settings, left_out, remarks)
+      call compare_cams(settings, left_out, remarks)
       call look_at_engine(settings, left_out, remarks)
       call look_at_temperature(settings, varied, remarks)
       if (.not. has_group(settings, "heat")) return
@@ -227,6 +228,37 @@ contains
       if (value(1) < value(2)) call add_line(remarks, key//" = "//number_text(value(1), digits)//" is raised to "//group// &
          & ".smallest_coefficient = "//number_text(value(2), digits))
    end subroutine compare_boundary
+
+   !> Cams of a shaft stand side by side.
+   subroutine compare_cams(settings, left_out, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys of which nothing is said
+      character(len=*), intent(in) :: left_out(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=*), parameter :: key = "cam_positions_mm", group = "cam_bearings"
+      ! Width of the contacts, places of the cams [m]
+      real(wp) :: width(1)
+      real(wp), allocatable :: places(:)
+      logical :: is_there
+      integer :: i, k
+
+      call get(settings, left_out, "mechanism.contact_width_mm", width, is_there)
+      if (.not. is_there .or. .not. has_group(settings, group) .or. any(left_out == group//"."//key)) return
+      if (.not. is_known(settings, group, key)) return
+      call take(settings, group, key, places)
+      do i = 1, size(places)
+         do k = i + 1, size(places)
+            if (abs(places(i) - places(k)) >= (1.0_wp - room)*width(1)) cycle
+            call add_line(remarks, group//"."//key//": cams "//integer_text(i)//" and "//integer_text(k)//" are "// &
+               & number_text(mm*abs(places(i) - places(k)), digits)//" mm apart and have contacts of "// &
+               & number_text(mm*width(1), digits)//" mm width: they overlap")
+            return
+         end do
+      end do
+   end subroutine compare_cams
 
    !> Valves open when their cylinder does not fire, and each cylinder has some.
    subroutine look_at_engine(settings, left_out, remarks)

@@ -1,19 +1,28 @@
-!> Remarks on the error of a result: an accuracy that was not reached, a tolerance that says nothing of the error, a motion without
-!> a period.
+!> Remarks on a result as a whole: an accuracy that was not reached, a tolerance that says nothing of the error, a motion without a
+!> period; a roller that does not turn, wear that would change the cam.
 !>
 !> In: numerics as given, the result of a case. Out: remarks, or an error where nothing of the result can be right.
-module camroller_accuracy_remarks
+module camroller_result_remarks
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond
    use camroller_case, only : numerics_t
    use camroller_number_text, only : number_text, fixed_text
-   use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_extremes, missed_means, no_period
-   use camroller_result, only : result_t, get_summary
+   use camroller_catalogue, only : lobe_prefix
+   use camroller_remarks, only : add_remark, deep_wear, idle_roller, loose_tolerance, missed_accuracy, missed_extremes, &
+      & missed_means, no_period
+   use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
 
-   public :: judge
+   public :: judge, judge_wear
+
+   !> Slip over a turn of the cam beyond which a roller does not roll: those of engines slip by some per cent, and by half on their
+   !> base circle alone; one that makes less than a tenth of its turns is a sliding follower [-]
+   real(wp), parameter :: idle_slip = 0.9_wp
+   !> Wear over the largest lift of the valve that is none of a surface any more: a hundredth is about the 0.09 mm that
+   !> oils for gasoline engines may let a cam lose in the Sequence IVA test (ASTM D6891, ILSAC GF-5) [-]
+   real(wp), parameter :: deep_part = 0.01_wp
 
 contains
 
@@ -33,7 +42,88 @@ contains
       if (allocated(error)) return
       if (is_checked(numerics)) call judge_accuracy(result, numerics%accuracy, estimates, error)
       if (has_tolerance(numerics)) call judge_tolerance(numerics, result, estimates)
+      call judge_turns(result)
    end subroutine judge
+
+   !> Say that a roller hardly turns.
+   subroutine judge_turns(result)
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+
+      integer :: lobe, place
+
+      do lobe = 1, huge(lobe)
+         place = find_quantity(result%summary, trim(lobe_prefix(lobe))//"revolution_slip")
+         if (place == 0) exit
+         associate (slip => result%summary_values(place))
+            if (slip < idle_slip) cycle
+            call add_named(result, lobe, idle_roller, "the roller hardly turns: in a turn of the cam it slips by "// &
+               & number_text(100.0_wp*slip, 3)//" % of the turns of pure rolling; it is a sliding follower, which heats and "// &
+               & "wears its ring at one place, where this is the state of the engine at all", slip)
+         end associate
+      end do
+   end subroutine judge_turns
+
+   !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
+   subroutine judge_wear(result)
+      !> The result, with what hours of running have worn away; gets the remark
+      type(result_t), intent(inout) :: result
+
+      ! Lift of the valve, depths worn away from cam and roller [m]
+      real(wp) :: values(3)
+      integer :: lobe
+
+      do lobe = 1, huge(lobe)
+         if (find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"cam_wear_depth") == 0) exit
+         call find_value("max_", "valve_lift", values(1))
+         call find_value("max_", "cam_wear_depth", values(2))
+         call find_value("", "roller_wear_depth", values(3))
+         if (maxval(values(2:)) <= deep_part*values(1)) cycle
+         call add_named(result, lobe, deep_wear, "the hours of running wear up to "//number_text(1.0e3_wp*values(2), 3)// &
+            & " mm away from the cam and "//number_text(1.0e3_wp*values(3), 3)//" mm from the roller, which lift the valve by "// &
+            & number_text(1.0e3_wp*values(1), 3)//" mm; lift and radii are those of new parts here, and loads are not those of "// &
+            & "worn ones; are wear rates, in mm^3/(N m), and hours right?", maxval(values(2:))/values(1))
+      end do
+
+   contains
+
+      !> A scalar of the lobe.
+      subroutine find_value(statistic, series, value)
+         !> What of a series, its name
+         character(len=*), intent(in) :: statistic, series
+         !> The value [m]
+         real(wp), intent(out) :: value
+
+         type(error_t), allocatable :: ignored
+
+         call get_summary(result, statistic//trim(lobe_prefix(lobe))//series, value, ignored)
+      end subroutine find_value
+
+   end subroutine judge_wear
+
+   !> Add a remark, with the name of its lobe shape where there are several.
+   subroutine add_named(result, lobe, kind, text, size)
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+      !> Lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> Kind of the remark
+      integer, intent(in) :: kind
+      !> In words, on one line
+      character(len=*), intent(in) :: text
+      !> Severity [-]
+      real(wp), intent(in) :: size
+
+      logical :: has_several
+
+      has_several = find_quantity(result%summary, trim(lobe_prefix(2))//"revolution_slip") > 0
+      if (has_several) then
+         call add_remark(result%remarks, kind, trim(lobe_scope(lobe))//": "//text, size)
+         result%remarks(ubound(result%remarks, 1))%lobe = lobe
+      else
+         call add_remark(result%remarks, kind, text, size)
+      end if
+   end subroutine add_named
 
    !> Remarks on an accuracy that was not reached, or an error where nothing of the result can be right.
    subroutine judge_accuracy(result, accuracy, estimates, error)
@@ -161,4 +251,4 @@ contains
       if (.not. allocated(error)) call get_summary(result, "estimated_error_of_extremes", estimates(3), error)
    end subroutine get_estimates
 
-end module camroller_accuracy_remarks
+end module camroller_result_remarks

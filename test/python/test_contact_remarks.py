@@ -45,3 +45,15 @@ def test_the_pressure_is_that_where_the_load_along_the_roller_is_largest(camroll
     deck = tmp_path / "tilted.nml"
     deck.write_text((ROOT / "decks/thesis.nml").read_text(encoding="utf-8") + "\n&roller_profile tilt_mrad = 0.2 /\n", encoding="utf-8")
     assert "the pressure goes up to 1.08 GPa" in remarks(camroller, tmp_path, "operating_point.oil_temperature_degC=95", deck=deck)
+
+
+@pytest.mark.parametrize("deck, settings, words", [
+    ("decks/thesis.nml", (), None),
+    # half of the turns are lost, and the roller still rolls
+    ("decks/hard/cold_start_minus_20.nml", (), None),
+    ("decks/hard/stuck_roller.nml", (), r"^\S*remark: the roller hardly turns: in a turn of the cam it slips by 100 % of the turns"),
+    ("decks/three_cam_head.nml", ("needle_bearing.friction_coefficient=0.5",), r"lobe 2: the roller hardly turns: .* it slips by "),
+])
+def test_a_roller_that_does_not_turn_gives_a_remark(camroller, tmp_path, deck, settings, words):
+    text = remarks(camroller, tmp_path, *settings, deck=deck)
+    assert re.search(words, text, re.MULTILINE) if words else "hardly turns" not in text, text

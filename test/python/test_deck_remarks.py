@@ -5,6 +5,7 @@ import pathlib
 import re
 import subprocess
 
+import numpy as np
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -134,6 +135,10 @@ def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
     ("four_cylinder", "&gas_force table = 'tables/cylinder_pressure.txt' pressure_unit = 'bar' valve_diameter_mm = 28 /", [], []),
     ("thesis", "&gas_force table = 'tables/cylinder_pressure.txt' valve_diameter_mm = 28 second_valve_diameter_mm = 26 /", [],
      ["gas_force.second_valve_diameter_mm = 26 has no effect: it is used with &second_lift"]),
+    ("four_cylinder", "", ["cam_bearings.cam_positions_mm=28,64,120,156,212,248,252,340"],
+     ["cam_bearings.cam_positions_mm: cams 6 and 7 are 4 mm apart and have contacts of 9 mm width: they overlap"]),
+    ("three_cam_head", "", ["cam_bearings.cam_positions_mm=24,24,124"], ["cams 1 and 2 are 0 mm apart"]),
+    ("three_cam_head", "", ["cam_bearings.cam_positions_mm=24,38,124"], []),
     ("four_cylinder", "", ["cam_bearings.cam_cylinders=1,1,1,1,2,2,2,2"], ["2 cylinders of 4 without a cam"]),
     ("four_cylinder", "", ["operating_point.speed_rpm=7000", "lubricant.hths_viscosity_mPa_s=3"], []),
     ("four_cylinder", "", ["lubricant.viscosity_at_40_degC_mm2_s=16", "lubricant.hths_viscosity_mPa_s=3.9"],
@@ -148,6 +153,33 @@ def test_values_that_do_not_go_together_give_remarks(camroller, tmp_path, deck, 
     assert len(remarks) == len(words), remarks
     for remark, word in zip(remarks, words):
         assert word in remark
+
+
+def test_a_tilt_of_the_adjuster_has_no_effect_without_the_mass_of_the_finger(camroller):
+    inertia = (ROOT / "decks/thesis.nml").read_text().replace("finger_kg = 0.0418", "finger_inertia_kg_m2 = 5.3e-5\n")
+    assert "finger_kg" not in inertia
+    for text, count in ((inertia, 1), ((ROOT / "decks/thesis.nml").read_text(), 0)):
+        done = subprocess.run([camroller, "check", "-", "--set", "mechanism.adjuster_tilt_deg=5"], input=text, capture_output=True,
+                              text=True, cwd=ROOT, check=True)
+        assert done.stderr.count("mechanism.adjuster_tilt_deg = 5 has no effect: it is used with masses.finger_kg") == count, done.stderr
+
+
+def test_a_lift_table_whose_nose_is_elsewhere_gives_a_remark(camroller, tmp_path):
+    """Full lift 12 degrees behind the nose; 4 degrees are taken as meant, as is a lift that stays up around its nose."""
+    rows = np.loadtxt(ROOT / "decks/tables/polynomial_lift.txt")
+    table = tmp_path / "lift.txt"
+    for shift, side in ((12, "behind"), (-12, "before"), (4, None), (-4, None)):
+        np.savetxt(table, rows + [shift, 0], fmt="%.9f")
+        remarks = remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}")
+        assert len(remarks) == (side is not None), remarks
+        if side:
+            told = re.search(rf"the largest lift is ([\d.]+) degrees {side} the nose, .* is 'table_nose_angle_deg' of &lift right\?$", remarks[0])
+            assert float(told[1]) == pytest.approx(12, abs=0.5), "half of the distance of two rows"
+    top = rows[:, 1].argmax()
+    angles = np.concatenate([rows[:top, 0] - 20, np.arange(-20, 20.1, 0.5) + rows[top, 0], rows[top + 1:, 0] + 20])
+    lift = np.concatenate([rows[:top, 1], np.full(81, rows[top, 1]), rows[top + 1:, 1]])
+    np.savetxt(table, np.column_stack([angles, lift]), fmt="%.9f")
+    assert not any("the nose" in remark for remark in remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}"))
 
 
 def test_temperatures_without_effect_give_a_remark(camroller):

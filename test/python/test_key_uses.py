@@ -38,6 +38,7 @@ VALUES = {
     "gas_force.second_valve_diameter_mm": "20",
     "dynamics.seat_damping_s_m": "2", "dynamics.seat_restitution_speed_m_s": "0.4",
     "effects.negligible": "0.05", "effects.quantity": "minimum_film",
+    "mechanism.adjuster_tilt_deg": "5",
     "numerics.step_deg": "0.05", "numerics.periodicity": "0.5", "sweep.series_cases": None,
 }
 
@@ -60,6 +61,9 @@ CURVES = " ".join(key for key in VALUES if re.match("valve_tip|guide_side_load|f
 TABLE = " ".join(key for key in VALUES if re.match(r"lift\.(table|smoothing)", key))
 LOGARITHM = " ".join(key for key in VALUES if re.match("boundary_law.*(reference|change|lowest)", key))
 SPEEDS = " ".join(key for key in VALUES if re.match("boundary_law.*points", key))
+
+# The scene in which the moment of inertia of the finger is known and its mass is not
+MASSLESS, TILT = "finger without a mass", "mechanism.adjuster_tilt_deg"
 
 # name: values beside decks/thesis.nml, further groups, keys of the table that are used
 SCENES = {
@@ -106,13 +110,14 @@ SCENES = {
     "seat with a damping": ([], GAS + "&dynamics /\n", [BOUNDARY, POWER, POINTS, NEEDLES, "dynamics.seat_damping_s_m"]),
     "seat with a restitution": (
         [], "&dynamics seat_restitution = 0.4 /\n", [BOUNDARY, POWER, POINTS, NEEDLES, "dynamics.seat_restitution_speed_m_s"]),
+    MASSLESS: ([], "", [BOUNDARY, POWER, POINTS, NEEDLES]),
     "numerical film": ([], "&ehl accuracy = 0.1 /\n", [BOUNDARY.removeprefix("film.law "), POWER, POINTS, NEEDLES]),
 }
 
 
 def used_in(*scenes):
     """Keys of the table that are used in scenes."""
-    return {key for scene in scenes for keys in SCENES[scene][2] for key in keys.split()}
+    return {key for scene in scenes for keys in [*SCENES[scene][2], TILT * (scene != MASSLESS)] for key in keys.split()}
 
 
 def run(camroller, deck, command, *values):
@@ -156,6 +161,8 @@ def test_an_idle_key_changes_nothing_and_a_used_one_does(camroller, tmp_path, sc
     used = used_in(scene)
     deck = tmp_path / "deck.nml"
     text = (ROOT / "decks/thesis.nml").read_text() + groups
+    if scene == MASSLESS:
+        text = re.sub(r"finger_kg = \S+", "finger_inertia_kg_m2 = 5.3e-5", text)
     if "lubricant.roelands_index" in used:
         text = text.replace("pressure_viscosity_coefficient_per_GPa = 22", "")
     for table in (ROOT / "decks/hard/tables").glob("*_lift.txt"):

@@ -62,3 +62,19 @@ def test_hours_need_what_changes_in_them(camroller, tmp_path, leave, words):
     (tmp_path / "deck.nml").write_text(text)
     result = run(camroller, "check", "deck.nml", folder=tmp_path)
     assert result.returncode == DECK_ERROR and words in result.stderr
+
+
+def test_wear_is_next_to_nothing_in_the_deck_and_too_much_of_it_gives_a_remark(camroller, folder):
+    """The depths that the deck's head states; rates of the wrong power of ten wear the cam away, which its geometry does not follow."""
+    with h5py.File(folder / "one.h5") as file:
+        depths = file["summary/max_cam_wear_depth"][...]
+        assert depths == pytest.approx([1.0e-12, 4.1e-12], rel=0.05)
+        assert not any("new parts" in line for line in file["run/warnings"].asstr()[...])
+        # one hundredth of the lift of 9.5 mm
+        rate = 1e-8 * 0.01 * 9.5e-3 / depths[0]
+    for factor, count in ((1.2, 1), (0.8, 0)):
+        words = ["--set", "sweep.values_1=300", "--set", f"wear.cam_rate_mm3_N_m={factor * rate}"]
+        done(camroller, "run", DECK, *COARSE, *words, "-o", "worn.h5", "--quiet", folder=folder)
+        with h5py.File(folder / "worn.h5") as file:
+            lines = "\n".join(file["run/warnings"].asstr()[...]).splitlines()
+        assert sum("mm away from the cam and" in line and "are those of new parts here" in line for line in lines) == count
