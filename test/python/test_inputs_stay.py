@@ -170,17 +170,20 @@ def written(folder):
             "series": ["export", "r.h5", "-o"], "summary": ["export", "r.h5", "--summary", "--format", "plain", "-o"],
             "columns": ["export", "r.h5", "--columns", "contact_load", "--format", "json", "-o"],
             "mechanism": ["check", "lift.nml", "--draw"], "lift": ["check", "lift.nml", "--draw-lift"],
-            "cam": ["check", "lift.nml", "--cam"]}
+            "cam": ["check", "lift.nml", "--cam"], "fmu": ["fmu", "lift.nml", "--library", "lib", "-o"]}
 
 
 KINDS = {"result": "result", "another result": "result", "series": "exported table", "summary": "exported table",
-         "columns": "exported table", "mechanism": "drawing", "lift": "drawing", "cam": "table of a cam"}
+         "columns": "exported table", "mechanism": "drawing", "lift": "drawing", "cam": "table of a cam", "fmu": "FMU"}
 
 
 @pytest.mark.parametrize("what", KINDS)
 def test_a_file_replaces_an_earlier_one_of_its_kind_alone(camroller, folder, what):
     """What a user has written is not lost, nor an output of another kind, whatever its name."""
     words = written(folder)
+    (folder / "lib").mkdir()
+    # what tells the machine of a library, for which nothing else is looked at here
+    (folder / "lib/camroller_fmi.so").write_bytes(b"\x7fELF" + bytes(14) + b"\x3e" + bytes(13))
     for name, other in (("result", "r.h5"), ("cam", "cam.csv"), ("mechanism", "m.svg"), ("series", "r.csv")):
         assert run(camroller, *words[name], other, folder=folder).returncode == 0
     shutil.copy(folder / "r.h5", folder / "other.h5")
