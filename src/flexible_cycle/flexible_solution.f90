@@ -128,15 +128,14 @@ contains
       real(wp), intent(inout) :: state(:)
       !> Turns at most of the search with the tolerance wanted
       integer, intent(in) :: max_cycles
-      !> Convergence error where a turn cannot be integrated with the tolerance wanted
+      !> Convergence error where a turn cannot be integrated
       type(error_t), allocatable, intent(out) :: error
 
-      ! Where the first turn starts [state]; tolerance over the one wanted [-]
-      real(wp) :: rest(size(state)), ratio
+      ! Tolerance over the one wanted [-]
+      real(wp) :: ratio
       ! Steps of a search at most, those of the searches before; turns of these
       integer :: most_search, steps, cycles
 
-      rest = state
       most_search = turn%most_search
       ratio = 1.0_wp
       do while (level_ratio*ratio*solution%cycle%tolerance <= largest_level)
@@ -150,11 +149,8 @@ contains
             call set_tolerance(turn, ratio*cycle%tolerance*turn%scales)
             call find_periodic(cycle, turn, state, closure_ratio*ratio*cycle%tolerance, merge(max_cycles, few_cycles, &
                & ratio <= 1.0_wp), error)
+            if (allocated(error)) return
             if (.not. ratio > 1.0_wp) exit
-            if (allocated(error)) then
-               deallocate (error)
-               state = rest
-            end if
             cycle%period = 0
             ratio = ratio/level_ratio
          end do

@@ -219,7 +219,8 @@ def test_turns_that_are_still_on_their_way_are_called_a_transient(speed, words, 
     with h5py.File(tmp_path / "run.h5") as file:
         assert file["summary/period_cycles"][...].ravel()[0] == 0
         warnings = file["run/warnings"][...].ravel()[0].decode()
-    assert "did not become periodic within 40 cycles" in warnings and words in warnings
+    # 20 with a coarse tolerance and 40 with the one wanted
+    assert "did not become periodic within 60 cycles" in warnings and words in warnings
     assert "these numbers are those of a transient; raise numerics.max_cycles" in warnings
 
 

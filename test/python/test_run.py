@@ -108,13 +108,14 @@ def test_two_runs_give_the_same_numbers(camroller, thesis, tmp_path):
 ], ids=["no triangle", "too much lift", "adjuster stronger than spring", "negative length"])
 def test_a_run_without_results_keeps_the_earlier_file(camroller, tmp_path, changes, code, words):
     deck = one_case(tmp_path / "deck.nml", *changes)
-    (tmp_path / "deck.h5").write_text("earlier")
+    earlier = b"\x89HDF\r\n\x1a\n of an earlier camroller result"
+    (tmp_path / "deck.h5").write_bytes(earlier)
     result = run(camroller, "run", deck, folder=tmp_path)
     assert result.returncode == code, result.stderr
     assert words in result.stderr
     assert result.stdout == ""
     assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.h5", "deck.nml"]
-    assert (tmp_path / "deck.h5").read_text() == "earlier"
+    assert (tmp_path / "deck.h5").read_bytes() == earlier
     checked = run(camroller, "check", deck, folder=tmp_path)
     assert checked.returncode == code
     assert words in checked.stderr

@@ -2,13 +2,14 @@
 module test_flexible_periods
    use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
    use camroller_kinds, only : wp, pi
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, numerics_t
    use camroller_error, only : error_t, kind_domain
    use camroller_model, only : model_t
    use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, rest_of_train
+   use camroller_flexible_solution, only : flexible_solution_t, solve_flexible, tolerance_ratio
    use camroller_flexible_trend, only : find_trend, trend_t
    use camroller_flexible_turn, only : start_turns, turn_t
-   use camroller_flexible_train, only : at_finger, at_lift, at_plunger
+   use camroller_flexible_train, only : at_finger, at_lift, at_plunger, at_sliding
    use camroller_number_text, only : integer_text, number_text
    use camroller_remarks, only : missed_accuracy, remark_lines
    use camroller_result, only : result_t
@@ -45,6 +46,8 @@ contains
          new_unittest("a state that loses a hundredth a turn is extrapolated from three turns", test_extrapolation), &
          new_unittest("a train that takes more steps than it may is given up with words for its fastest part", test_work), &
          new_unittest("the search for a period ends after as many steps as it may take, without an error", test_search), &
+         new_unittest("coarse turns first lead to the same periodic state in fewer steps", test_coarse), &
+         new_unittest("a train without a period takes 20 coarse turns and the 40 with its tolerance", test_aperiodic), &
          new_unittest("a train that rattles without a period is not integrated again with a smaller tolerance", test_scatter), &
          new_unittest("turns that drift or approach a period are told from those that scatter", test_trend) &
          ]
@@ -208,6 +211,69 @@ contains
       if (allocated(error)) return
       call check(error, cycle%cycles == 1 .and. cycle%period == 0, "cycles that were tried: "//integer_text(cycle%cycles))
    end subroutine test_search
+
+   !> At 2500 rev/min a turn leaves a tenth of a disturbance or less: both ends are within a ninth of the closure from the periodic
+   !> state.
+   subroutine test_coarse(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Speed [rev/min], tolerance over that of the other tests [-]
+      real(wp), parameter :: speed = 2500.0_wp, part = 0.04_wp
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(flexible_solution_t) :: solution
+      type(flexible_cycle_t) :: cycle
+      type(turn_t) :: turn
+      type(error_t), allocatable :: failure
+      ! End of the cycle without coarse turns, in units of the scales [-]; the scales [state]
+      real(wp), allocatable :: state(:)
+
+      call find(speed, 0.01_wp, 0.0_wp, .false., 40, cycle, state, error, part)
+      if (allocated(error)) return
+      the_case = thesis_case()
+      call set_point(the_case, speed*pi/30.0_wp, 0.01_wp)
+      call add_dynamics(the_case, 5, .false.)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call start_turns(turn, model, "rodas5p", part*tolerance, failure)
+      if (.not. allocated(failure)) call solve_flexible(solution, model, numerics_t(method="rodas5p", &
+         & tolerance=part*tolerance/tolerance_ratio), failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call check(error, all([cycle%period, solution%cycle%period] == 1), "no period")
+      if (allocated(error)) return
+      ! It is two thirds; a coarse turn takes 0.4 of the steps
+      call check(error, real(solution%cycle%counters%accepted, wp)/cycle%counters%accepted < 0.8_wp, "steps: "// &
+         & integer_text(solution%cycle%counters%accepted)//", without coarse turns "//integer_text(cycle%counters%accepted))
+      if (allocated(error)) return
+      associate (path => solution%cycle%trajectory)
+         state = path%state(:, path%count)/turn%scales - state
+         ! Its scale is one of the search
+         state(at_sliding) = 0.0_wp
+         call check(error, maxval(abs(state)) <= part*closure, "ends differ")
+      end associate
+   end subroutine test_coarse
+
+   !> Overspeed: the train has lost its cam.
+   subroutine test_aperiodic(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(flexible_solution_t) :: solution
+      type(error_t), allocatable :: failure
+
+      the_case = thesis_case()
+      call set_point(the_case, 3300.0_wp*pi/30.0_wp, 0.01_wp)
+      call add_dynamics(the_case, 2, .false.)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call solve_flexible(solution, model, numerics_t(method="rodas5p", tolerance=1.2e-5_wp), failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call check(error, solution%cycle%period == 0 .and. .not. solution%is_cut_short .and. size(solution%turns) == 40, &
+         & "period "//integer_text(solution%cycle%period))
+      if (allocated(error)) return
+      call check(error, solution%cycle%cycles, 60)
+   end subroutine test_aperiodic
 
    !> With lash. Rounding may decide whether a period is found at a speed, and how large the error is: the first speed shows what is
    !> looked for, on another processor perhaps one of the others.

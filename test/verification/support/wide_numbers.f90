@@ -118,7 +118,7 @@ module wide_numbers
       & usual_t("running_in.accuracy", 1.0e-3_wp, 1.0e-1_wp, .true.), &
       & usual_t("running_in.places", 24.0_wp, 720.0_wp), &
       & usual_t("needle_bearing.friction_coefficient", 1.0e-4_wp, 0.1_wp, .true.), &
-      & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 2.0_wp), &
+      & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 1.45_wp), &
       & usual_t("needle_bearing.reversal_ratio", 1.0e-4_wp, 0.5_wp, .true.), &
       & usual_t("needle_bearing.pin_width_mm", 4.0_wp, 9.0_wp), &
       & usual_t("needle_bearing.pin_radial_clearance_um", 10.0_wp, 60.0_wp, .true.), &
