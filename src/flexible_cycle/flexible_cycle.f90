@@ -18,7 +18,8 @@ module camroller_flexible_cycle
    implicit none
    private
 
-   public :: flexible_cycle_t, history_t, find_periodic, find_period, extrapolate, is_possible, rest_of_train
+   public :: flexible_cycle_t, history_t, find_periodic, find_period, extrapolate, is_alternating, is_possible, &
+      & rest_of_train
 
    !> Most cycles that make a period together
    integer, parameter, public :: longest_period = 8
@@ -297,7 +298,8 @@ contains
    !>
    !> How ends follow starts within the directions of the last turns is a small matrix `G`; where `G + share` has a negative
    !> determinant, one of its factors is below minus that share. Extrapolation takes what alternates out of the newest turn, so
-   !> that one difference alone does not show it.
+   !> that one difference alone does not show it. Where `G` makes every difference smaller than that share none of its factors is
+   !> below, whatever the sign of a determinant that rounding decides.
    pure function is_alternating(history, noise) result(verdict)
       !> The last turns
       type(history_t), intent(in) :: history
@@ -308,8 +310,11 @@ contains
 
       ! Changes of the start from turn to turn, and of the end, in units of the scales [-]
       real(wp), dimension(size(history%starts, 1), compared_turns) :: starts, ends
-      ! What of a change is not in the direction of the others, unit vectors that span these [-]
-      real(wp) :: own(size(starts, 1)), directions(size(starts, 1), compared_turns)
+      ! What of a change is not in the direction of the others and its end, unit vectors that span these and their ends [-]
+      real(wp), dimension(size(starts, 1)) :: own, own_end
+      real(wp), dimension(size(starts, 1), compared_turns) :: directions, images
+      ! Part of the change in a direction [-]
+      real(wp) :: part
       integer :: i, n
 
       verdict = .false.
@@ -319,11 +324,16 @@ contains
       end do
       do n = 1, min(history%kept - 1, compared_turns)
          own = starts(:, n)
+         own_end = ends(:, n)
          do i = 1, n - 1
-            own = own - dot_product(own, directions(:, i))*directions(:, i)
+            part = dot_product(own, directions(:, i))
+            own = own - part*directions(:, i)
+            own_end = own_end - part*images(:, i)
          end do
          if (n > 1 .and. maxval(abs(own)) < noise) exit
          directions(:, n) = own/max(norm2(own), tiny(1.0_wp))
+         images(:, n) = own_end/max(norm2(own), tiny(1.0_wp))
+         if (norm2(images(:, :n)) < alternating) cycle
          ! By the ends, in which what fades fast has done so
          associate (x => starts(:, :n), y => ends(:, :n))
             verdict = verdict .or. sign_of_determinant(matmul(transpose(y), y + alternating*x)) &

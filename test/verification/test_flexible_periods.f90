@@ -5,7 +5,8 @@ module test_flexible_periods
    use camroller_case, only : case_t, numerics_t
    use camroller_error, only : error_t, kind_domain
    use camroller_model, only : model_t
-   use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, rest_of_train
+   use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, &
+      & is_alternating, rest_of_train
    use camroller_flexible_solution, only : flexible_solution_t, solve_flexible, tolerance_ratio
    use camroller_flexible_trend, only : find_trend, trend_t
    use camroller_flexible_turn, only : start_turns, turn_t
@@ -44,6 +45,8 @@ contains
             & test_drift), &
          new_unittest("a cycle whose disturbances come back with the other sign, and larger, is not found", test_unstable), &
          new_unittest("a state that loses a hundredth a turn is extrapolated from three turns", test_extrapolation), &
+         new_unittest("turns alternate where a disturbance comes back with the other sign, not where little is left", &
+            & test_alternating), &
          new_unittest("a train that takes more steps than it may is given up with words for its fastest part", test_work), &
          new_unittest("the search for a period ends after as many steps as it may take, without an error", test_search), &
          new_unittest("coarse turns first lead to the same periodic state in fewer steps", test_coarse), &
@@ -342,6 +345,25 @@ contains
       call find_trend(starts, trend)
       call check(error, trend%approached, 2, "a period of two")
    end subroutine test_trend
+
+   !> Two turns whose starts differ in the first component alone: half of that goes to the second one and a hundredth comes back
+   !> with the other sign; then nearly all comes back so.
+   subroutine test_alternating(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Differences of the ends [-]
+      real(wp), parameter :: ends(2, 2) = reshape([-0.01_wp, 0.5_wp, -0.95_wp, 0.0_wp], [2, 2])
+      type(history_t) :: history
+      integer :: i
+
+      allocate (history%starts(2, 2), history%residuals(2, 2), source=0.0_wp)
+      history%kept = 2
+      history%starts(1, 1) = 1.0_wp
+      do i = 1, 2
+         history%residuals(:, 1) = ends(:, i) - history%starts(:, 1)
+         call check(error, is_alternating(history, closure) .eqv. i == 2)
+         if (allocated(error)) return
+      end do
+   end subroutine test_alternating
 
    !> Turns of a linear map: the first component loses a hundredth a turn, the second nine tenths, to a fixed point at 1 and 2.
    subroutine test_extrapolation(error)
