@@ -202,7 +202,7 @@ contains
       !> Force on each cam in the frame of its own follower, shape (2, cam) [N]
       real(wp), intent(in) :: forces(:, :)
       !> The same in the frame of the first follower, same shape [N]
-      real(wp), intent(out) :: turned(:, :)
+      real(wp), intent(out), contiguous :: turned(:, :)
       !> The torques [N m]
       real(wp), intent(out) :: torques(:)
       !> Domain error where a bearing law has no solution

@@ -2,7 +2,7 @@
 !> period; a roller that does not turn, wear that would change the cam.
 !>
 !> In: numerics as given, the result of a case. Out: remarks, or an error where nothing of the result can be right.
-module camroller_result_remarks
+module camroller_run_remarks
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond
@@ -251,4 +251,4 @@ contains
       if (.not. allocated(error)) call get_summary(result, "estimated_error_of_extremes", estimates(3), error)
    end subroutine get_estimates
 
-end module camroller_result_remarks
+end module camroller_run_remarks
