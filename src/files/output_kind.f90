@@ -19,7 +19,7 @@ module camroller_output_kind
       !> How it may begin; blank where there are fewer
       character(len=40) :: beginnings(3) = ""
       !> What stands in it near its beginning
-      character(len=32) :: mark = ""
+      character(len=40) :: mark = ""
    end type output_kind_t
 
    !> Result of any command, in HDF5

@@ -52,7 +52,7 @@ contains
 
       integer :: lobe, place
 
-      do lobe = 1, huge(lobe)
+      do lobe = 1, size(result%summary)
          place = find_quantity(result%summary, trim(lobe_prefix(lobe))//"revolution_slip")
          if (place == 0) exit
          associate (slip => result%summary_values(place))
@@ -73,7 +73,7 @@ contains
       real(wp) :: values(3)
       integer :: lobe
 
-      do lobe = 1, huge(lobe)
+      do lobe = 1, size(result%summary)
          if (find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"cam_wear_depth") == 0) exit
          call find_value("max_", "valve_lift", values(1))
          call find_value("max_", "cam_wear_depth", values(2))
