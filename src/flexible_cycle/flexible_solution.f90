@@ -47,8 +47,8 @@ module camroller_flexible_solution
    real(wp), parameter, public :: tolerance_ratio = 0.4_wp
    !> Distance from the periodic state that is near enough, over the tolerance [-]
    real(wp), parameter :: closure_ratio = 10.0_wp
-   !> Tolerance of a search over that of the next, a turn of which takes two and a half times the steps; the largest one, with which
-   !> loads are good to a hundredth [-]
+   !> Tolerance of a search over that of the next, a turn of which takes two to four times the steps; the largest one, with which
+   !> loads are good to a hundredth or two [-] (`doc/notes/dynamics.md`, cycles to the periodic state)
    real(wp), parameter :: level_ratio = 100.0_wp, largest_level = 5.0e-4_wp
    !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much it errs at most, over the error [-]:
    !> a method of order 5 errs as its tolerance to the power 4/5 or 1, and less regularly where contacts open. A turn that errs

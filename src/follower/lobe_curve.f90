@@ -276,8 +276,7 @@ contains
       ! In one pass, not in one for each point
       associate (v => curve%values(:, :, piece))
          do i = 1, curve_values
-            values(i) = shares(1)*v(i, 1) + shares(2)*v(i, 2) + shares(3)*v(i, 3) + shares(4)*v(i, 4) + shares(5)*v(i, 5) &
-               & + shares(6)*v(i, 6) + shares(7)*v(i, 7)
+            values(i) = dot_product(v(i, :), shares)
          end do
       end associate
    end subroutine curve_at
