@@ -10,7 +10,7 @@
 !> Loads are solved at points equally spaced in the logarithm of the load, for some radii; the logarithms of the lengths between
 !> them are cubics of that logarithm and polynomials of ln R. Contact far narrower than the roller has few slices: where they do
 !> not resolve it, below, the lengths are powers of the load, and the loads keep their shape on a part of the roller that is
-!> shorter as they are.
+!> shorter as they are. Where the roller still carries all along at the smallest load of the table, lengths stay as they are there.
 module camroller_axial_table
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_convergence, kind_deck
@@ -192,8 +192,9 @@ contains
             where (rises(2:)*rises(:n - 2) > 0.0_wp) part%log_lengths(i, 2, 2:n - 1, k) = 2.0_wp*rises(2:)*rises(:n - 2) &
                & /(rises(2:) + rises(:n - 2))
          end do
-         ! Below the first point loads keep their shape, so that all lengths go with the same power
-         part%log_lengths(2:, 2, 1, k) = part%log_lengths(1, 2, 1, k)
+         ! Below the first point loads keep their shape, so that all lengths go with the same power. A length that grows as the load
+         ! falls is that of a roller that carries all along, and nearly the roller's, which it cannot exceed
+         part%log_lengths(:, 2, 1, k) = max(part%log_lengths(1, 2, 1, k), 0.0_wp)
       end do
    end subroutine fit_lengths
 

@@ -31,7 +31,7 @@ module camroller_catalogue
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
    !> Part of the friction that counts as none [-]: no friction is known to so many digits
    real(wp), parameter :: least_share = 1.0e-12_wp
-   !> Friction that has no share: far below the rounding of any load [N]
+   !> Coefficient of a friction that has no share: far below the rounding of the load [-]
    real(wp), parameter :: no_friction = 1.0e-20_wp
 
 contains
@@ -268,7 +268,8 @@ contains
          & state%contact_friction)
       if (allocated(case%asperity)) then
          call add(list, "asperity_friction_share", "1", "fraction of boundary friction in contact friction", "asperity", &
-            & state%boundary_friction/max(state%contact_friction, no_friction), least=least_share)
+            & state%boundary_friction/max(state%contact_friction, no_friction*state%contact%load, tiny(1.0_wp)), &
+            & least=least_share)
       end if
       if (allocated(case%roller_profile)) call add_axial(list, case, model, state, along)
       if (allocated(case%needle_bearing)) call add_pin(list, case, model, state)

@@ -24,6 +24,7 @@ contains
       testsuite = [ &
          new_unittest("slopes of the lengths are their difference quotients, inside and outside the table", test_slopes), &
          new_unittest("the lengths of Hertz' ellipse are those of a parabola", test_parabola), &
+         new_unittest("no length exceeds that of the roller, however small the load is", test_small_loads), &
          new_unittest("what the slices of a roller resist to rolling adds up to what the roller resists", test_rolling) &
          ]
    end subroutine collect_axial_lengths
@@ -84,6 +85,32 @@ contains
       if (.not. allocated(error)) call check_scaled(error, found%root, expected%root, 1.0_wp, 1.0e-8_wp, what//", root")
       if (.not. allocated(error)) call check_scaled(error, found%loaded, expected%loaded, 1.0_wp, 1.0e-8_wp, what//", loaded")
    end subroutine check_all_close
+
+   !> By Schwarz' inequality `W^2 <= L int w^2 dy`. A flat roller carries all along; the stress at its ends is the less of its load the
+   !> narrower the contact is.
+   subroutine test_small_loads(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(axial_part_t) :: part
+      type(error_t), allocatable :: failure
+      type(roller_profile_t) :: profile
+      type(line_lengths_t) :: lengths, unused(2)
+      ! Length of the point before [m]
+      real(wp) :: before
+      integer :: i
+
+      profile%profile = "flat"
+      profile%coupling = "half_space"
+      call new_axial_part(part, profile, roller_length, modulus, [5.0e-3_wp, 30.0e-3_wp], failure)
+      call expect_success(error, failure)
+      before = 0.0_wp
+      do i = 3, -12, -1
+         if (allocated(error)) return
+         call effective_lengths(part, 10.0_wp**i, radius, lengths, unused(1), unused(2))
+         call check(error, max(lengths%mean, lengths%root, lengths%loaded) <= roller_length .and. lengths%mean >= before, &
+            & "a length over that of the roller, or one that falls with the load")
+         before = lengths%mean
+      end do
+   end subroutine test_small_loads
 
    !> The load of Hertz' slender ellipse is a parabola along it, `w = (3 W/4 a)(1 - y^2/a^2)`: its lengths are 5/3, 3 pi^2/16 and 2
    !> times the half length; below the loads that slices resolve, as well.

@@ -275,12 +275,8 @@ contains
       character(len=:), allocatable :: trouble
       ! Difference, largest value, largest friction torque [unit of the series]
       real(wp) :: found, largest, friction
-      ! Friction below which the catalogue states no share of it, a constant in newtons whatever the units [N]
-      real(wp), parameter :: no_friction = 1.0e-20_wp
-      ! Rows that are compared
-      logical :: counts(size(one%series_values, 1))
       character(len=12) :: buffer
-      integer :: i, contact
+      integer :: i
 
       trouble = ""
       if (size(one%series) /= size(other%series) .or. size(one%summary) /= size(other%summary)) trouble = "other quantities"
@@ -291,16 +287,10 @@ contains
          largest = maxval(abs(one%series_values(:, i)))
          ! What spins the roller up is the difference of the torques on it, which at low speed are far larger
          if (index(one%series(i)%name, "torque_roller_inertia") > 0) largest = max(largest, friction)
-         counts = .true.
-         if (one%series(i)%name == "asperity_friction_share") then
-            contact = find_quantity(one%series, "friction_contact")
-            counts = min(one%series_values(:, contact), other%series_values(:, contact)) > no_friction
-         end if
          associate (dimension => dimension_of_unit(one%series(i)%unit))
-            found = maxval(abs(scaled(units, one%series_values(:, i), dimension) - other%series_values(:, i)), mask=counts) &
+            found = maxval(abs(scaled(units, one%series_values(:, i), dimension) - other%series_values(:, i))) &
                & /max(scaled(units, largest, dimension), tiny(1.0_wp))
          end associate
-         if (.not. any(counts)) found = 0.0_wp
          write (buffer, "(es9.2)") found
          if (.not. found <= allowed) trouble = trouble//" "//one%series(i)%name//buffer
       end do
