@@ -10,8 +10,9 @@
 !> with the width h of a slice: the half space's `w/(pi E*) int ds/sqrt(x^2 + s^2)`, whose mean over the semi-ellipse is that of a
 !> line at the distance beta, exactly so for slices longer than b (the mean of ln|x| is ln(b/2) - 1/2) and to b^2/(8 s^2) far away.
 !> For a uniform load in the middle of a long contact it gives Lundberg's approach `2 w/(pi E') (1 + 2 ln(2 L/b))`. Slices that do
-!> not see each other have the approach of that middle each. A slice narrower than b is no line contact of its own: there b counts
-!> as h (`1/b^4 + 1/h^4` in place of `1/b^4`), without which the loads of neighbours would not be determined.
+!> not see each other have the approach of that middle each. A slice narrower than b/1.6 is no line contact of its own: there b
+!> counts as 1.6 h (`1/b^4 + 1/(1.6 h)^4` in place of `1/b^4`), without which the loads of neighbours would not be determined: with
+!> 4 h they go up and down from slice to slice, with 2 h they begin to at a sharp end. More slices make the contact softer.
 !>
 !> Loads are where `u_i + gap_i` is the approach of the bodies, zero where the gap stays open. Newton's method with its exact
 !> derivatives (u is not linear in w, since b follows it), and slices taken out and in by the signs of load and gap. Behind a small
@@ -29,6 +30,8 @@ module camroller_slices
 
    !> Half width over the distance of the line that stands for a slice [-]
    real(wp), parameter :: thin_line = 0.5_wp*exp(-0.5_wp)
+   !> Largest half width of a slice over its width [-]
+   real(wp), parameter :: widest_slice = 1.6_wp
    !> Load per length over its mean by which a slice joins, if it has to carry more: from below Newton's method does not make it
    !> negative again; change after which joins are looked for and derivatives stay; what a solution may be off by: next to nothing
    !> beside the 1e-4 of a table between its points [-]
@@ -193,7 +196,7 @@ contains
          beta = line*sqrt(loads(j))
          if (is_coupled) then
             ! A smooth limit, since Newton's method would go to and fro at a sharp one
-            part = 1.0_wp/(1.0_wp + (beta*n/thin_line)**4)
+            part = 1.0_wp/(1.0_wp + (beta*n/(thin_line*widest_slice))**4)
             beta = beta*sqrt(sqrt(part))
             part = 0.5_wp*part
             far = max(j - 1, n - j)

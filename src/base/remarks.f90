@@ -10,11 +10,12 @@ module camroller_remarks
 
    public :: remark_t, remark_group_t, remarks_t, add_remark, remark_lines, note_remarks
    public :: remark_names, lost_contact, outside_range, unresolved_slip, standing_entrainment, open_pivot, pumped_adjuster, &
-      & missed_accuracy, missed_means, loose_tolerance, missing_profiles, missed_extremes, no_period, long_period, clashing_coils, &
-      & film_without_limit, beyond_pressure_law, hot_inlet, bouncing_valve, rising_plunger, stopped_plunger, &
+      & missed_accuracy, missed_means, loose_tolerance, missing_profiles, missed_extremes, no_period, long_period, &
+      & relieved_spring, film_without_limit, beyond_pressure_law, hot_inlet, bouncing_valve, rising_plunger, stopped_plunger, &
       & cut_off_contact, unloaded_end, rubbing_pin, rolling_out_of_range, rubbing_contact, yielding_surface, &
       & bearing_width, rubbing_bearing, orbit_out_of_range, foreign_asperities, hot_film, far_temperature, missing_lift, &
-      & open_valve, sinking_plunger, pressed_seat, cold_estimate, idle_roller, deep_wear
+      & open_valve, sinking_plunger, pressed_seat, cold_estimate, idle_roller, deep_wear, lifted_valve, &
+      & narrow_slices
 
    !> Kinds, in the order of `remark_names`. Their numbers: part of the cycle [%], part of the cycle [%], error [-], times [-],
    !> force [N], force [N], error [-], error [-], error [-], none, error [-], closure [-], cycles, travel over travel [-], film over
@@ -23,26 +24,28 @@ module camroller_remarks
    !> film [-], part of the cycle [%], part of the cycle [%], pressure over what is allowed [-], width over that of the law or the
    !> other way round [-], limit over film [-] for the next two, none, rise of the temperature [K], way beyond the points [K], part
    !> of the lift [%], smallest lift [m], way below its rest [m], force [N], way beyond the formula [K], slip [-], depth over
-   !> lift [-]
+   !> lift [-], force [N], half width over width [-]
    integer, parameter :: lost_contact = 1, outside_range = 2, unresolved_slip = 3, standing_entrainment = 4, open_pivot = 5, &
       & pumped_adjuster = 6, missed_accuracy = 7, missed_means = 8, loose_tolerance = 9, missing_profiles = 10, &
-      & missed_extremes = 11, no_period = 12, long_period = 13, clashing_coils = 14, film_without_limit = 15, &
+      & missed_extremes = 11, no_period = 12, long_period = 13, relieved_spring = 14, film_without_limit = 15, &
       & beyond_pressure_law = 16, hot_inlet = 17, bouncing_valve = 18, rising_plunger = 19, stopped_plunger = 20, &
       & cut_off_contact = 21, unloaded_end = 22, rubbing_pin = 23, rolling_out_of_range = 24, &
       & rubbing_contact = 25, yielding_surface = 26, bearing_width = 27, rubbing_bearing = 28, orbit_out_of_range = 29, &
       & foreign_asperities = 30, hot_film = 31, far_temperature = 32, missing_lift = 33, open_valve = 34, sinking_plunger = 35, &
-      & pressed_seat = 36, cold_estimate = 37, idle_roller = 38, deep_wear = 39
+      & pressed_seat = 36, cold_estimate = 37, idle_roller = 38, deep_wear = 39, lifted_valve = 40, &
+      & narrow_slices = 41
    !> What the kinds are called
    character(len=*), parameter :: remark_names(*) = [character(len=name_length) :: "contact lost", "film law out of range", &
       & "slip not resolved", "entrainment passes zero", "pivot joint opens", "adjuster pumps up", "accuracy not reached", &
       & "means not accurate", "tolerance too loose", "no profiles", "extremes not accurate", "not periodic", &
-      & "period of several cycles", "coils clash", "film without limit", "pressure law out of range", &
+      & "period of several cycles", "waves relieve the spring", "film without limit", "pressure law out of range", &
       & "heat of the inlet out of range", "valve bounces", "plunger rises in the event", "plunger at its stop", &
       & "contact cut off by an end", "end of the roller unloaded", "film of the pin too thin", "rolling law out of range", &
       & "film of the contact too thin", "pressure beyond yield", "bearing law out of its width", "film of a bearing too thin", &
       & "orbit out of its fit", "asperity law of another film", "oil of a hot film out of range", "oil far from its points", &
       & "lift not reached", "valve does not close", "plunger sinks far", "gas presses the closed valve", &
-      & "oil too cold for its estimate", "roller hardly turns", "wear changes the cam"]
+      & "oil too cold for its estimate", "roller hardly turns", "wear changes the cam", "gas opens the closed valve", &
+      & "slices too narrow"]
 
    !> One remark
    type :: remark_t

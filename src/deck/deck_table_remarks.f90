@@ -3,13 +3,13 @@
 !>
 !> In: settings and a table. Out: sentences. Nothing is refused for them.
 module camroller_deck_table_remarks
-   use camroller_deck_tables, only : get_lift_table
-   use camroller_kinds, only : degree, wp
+   use camroller_deck_tables, only : get_lift_table, get_pressure_table
+   use camroller_kinds, only : degree, pi, wp
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, find_outlier, lift_noise_t
    use camroller_mistakes, only : add_line, line_t
    use camroller_number_text, only : integer_text, number_text
-   use camroller_settings, only : get_word, has_group, settings_t, take
+   use camroller_settings, only : get_word, has_group, is_known, settings_t, take
    use camroller_table_file, only : table_t
    use camroller_units, only : find_unit, pressure_unit_names, to_si, unit_t
    implicit none
@@ -157,8 +157,9 @@ contains
       largest = maxval(abs(table%y))
       call find_unit(get_word(settings, "gas_force", "pressure_unit"), unit, is_there)
       if (to_si(unit, minval(table%y)) < vacuum) call add_line(remarks, table%path//": a gauge pressure of "// &
-         & number_text(1.0e-6_wp*to_si(unit, minval(table%y)), digits)//" MPa is below that of a vacuum; positive pressures "// &
-         & "press the valve shut")
+         & number_text(1.0e-6_wp*to_si(unit, minval(table%y)), digits)//" MPa is below that of a vacuum, which only a higher "// &
+         & "pressure in the port explains; positive pressures press the valve shut")
+      call remark_firing(settings, table, remarks)
       pressure = to_si(unit, largest)
       if (is_usual_pressure(pressure) .or. .not. largest > 0.0_wp) return
       words = ""
@@ -171,6 +172,38 @@ contains
       call add_line(remarks, table%path//": a largest pressure of "//number_text(1.0e-6_wp*pressure, digits)// &
          & " MPa is unusual: engines have 0.002 to 30 MPa"//words)
    end subroutine remark_pressure
+
+   !> A pressure of combustion far from the crank angle at which the cylinder fires.
+   subroutine remark_firing(settings, table, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Gauge pressure that only combustion has [Pa]; crank angle from the dead centre of firing, within which it is at its largest
+      ! in any engine [rad]
+      real(wp), parameter :: of_combustion = 1.0e6_wp, far = 60.0_wp*degree
+      ! Cam angle from full lift [rad], pressure [Pa], crank angles of full lift, of a working cycle, of the largest pressure [rad]
+      real(wp), allocatable :: angle(:), pressure(:), full_lift(:)
+      real(wp) :: cycle_angle, place
+      integer :: strokes
+
+      if (.not. is_known(settings, "engine", "full_lift_deg")) return
+      call take(settings, "engine", "full_lift_deg", full_lift)
+      strokes = 4
+      call take(settings, "engine", "strokes", strokes)
+      cycle_angle = pi*strokes
+      call get_pressure_table(settings, table, angle, pressure)
+      if (maxval(pressure) < of_combustion .or. size(full_lift) == 0) return
+      place = full_lift(1) + 0.5_wp*strokes*angle(maxloc(pressure, 1))
+      place = modulo(place + 0.5_wp*cycle_angle, cycle_angle) - 0.5_wp*cycle_angle
+      if (abs(place) <= far) return
+      call add_line(remarks, table%path//": the largest pressure, "//number_text(1.0e-6_wp*maxval(pressure), 4)//" MPa, is "// &
+         & number_text(abs(place)/degree, 3)//" degrees of crank angle "//trim(merge("before", "behind", place < 0.0_wp))// &
+         & " the firing of the cylinder, from which engine.full_lift_deg counts; is gas_force.table_nose_angle_deg right?")
+   end subroutine remark_firing
 
    !> Is a largest pressure usual?
    elemental function is_usual_pressure(pressure) result(verdict)

@@ -220,7 +220,11 @@ contains
       real(wp) :: value(3)
       logical :: are_there
 
-      if (any(left_out == group//".law") .or. get_word(settings, group, "law") /= "logarithmic") return
+      if (any(left_out == group//".law")) return
+      if (get_word(settings, group, "law") == "table") then
+         call compare_points(settings, left_out, remarks)
+         return
+      end if
       call get(settings, left_out, key//" "//group//".smallest_coefficient "//group//".largest_coefficient", value, are_there)
       if (.not. are_there) return
       if (value(1) > value(3)) call add_line(remarks, key//" = "//number_text(value(1), digits)//" is cut to "//group// &
@@ -228,6 +232,30 @@ contains
       if (value(1) < value(2)) call add_line(remarks, key//" = "//number_text(value(1), digits)//" is raised to "//group// &
          & ".smallest_coefficient = "//number_text(value(2), digits))
    end subroutine compare_boundary
+
+   !> Bounds of the coefficient and a table of it.
+   subroutine compare_points(settings, left_out, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Keys of which nothing is said
+      character(len=*), intent(in) :: left_out(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=*), parameter :: group = "boundary_law", key = group//".coefficient_points"
+      ! Bounds, points of the table [-]
+      real(wp) :: bounds(4)
+      real(wp), allocatable :: points(:)
+      logical :: are_there
+
+      call get(settings, left_out, group//".smallest_coefficient "//group//".largest_coefficient", bounds, are_there)
+      if (.not. are_there .or. any(left_out == key) .or. .not. is_known(settings, group, "coefficient_points")) return
+      call take(settings, group, "coefficient_points", points)
+      if (maxval(points) > bounds(2)) call add_line(remarks, key//" goes up to "//number_text(maxval(points), digits)// &
+         & " and is cut to "//group//".largest_coefficient = "//number_text(bounds(2), digits))
+      if (minval(points) < bounds(1)) call add_line(remarks, key//" goes down to "//number_text(minval(points), digits)// &
+         & " and is raised to "//group//".smallest_coefficient = "//number_text(bounds(1), digits))
+   end subroutine compare_points
 
    !> Cams of a shaft stand side by side.
    subroutine compare_cams(settings, left_out, remarks)
@@ -298,7 +326,7 @@ contains
          & integer_text(cylinders)//" without a cam; torques and friction mean effective pressure are those of the others")
    end subroutine look_at_engine
 
-   !> Temperatures of the oil without a law that needs them.
+   !> Temperatures of the oil without a law of its viscosity.
    subroutine look_at_temperature(settings, varied, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -313,10 +341,10 @@ contains
 
       if (.not. any(varied == key) .or. any(varied == "lubricant.temperature_law")) return
       if (get_word(settings, "lubricant", "temperature_law") /= "direct") return
-      if (is_known(settings, "lubricant", "pressure_viscosity_points_per_GPa")) return
-      if (any([(has_group(settings, trim(users(i))), i=1, size(users))])) return
-      call add_line(remarks, key//" varies without effect: lubricant.temperature_law is 'direct', one viscosity at all "// &
-         & "temperatures")
+      call add_line(remarks, key//" varies "//trim(merge("and not the oil's viscosity", "without effect             ", &
+         & is_known(settings, "lubricant", "pressure_viscosity_points_per_GPa") .or. &
+         & any([(has_group(settings, trim(users(i))), i=1, size(users))])))//": lubricant.temperature_law is 'direct', one "// &
+         & "viscosity at all temperatures")
    end subroutine look_at_temperature
 
    !> Values of numbers, where all of them are there and something may be said of each.

@@ -8,7 +8,7 @@ module camroller_spring_modes
    implicit none
    private
 
-   public :: spring_surge_t, spring_modes_t, most_modes, new_spring_modes, effective_mass, valve_pull, &
+   public :: spring_surge_t, spring_modes_t, most_modes, new_spring_modes, effective_mass, valve_pull, wave_compression, &
       & mode_energy, surge_of_harmonic
 
    !> Modes that a spring can have
@@ -38,6 +38,9 @@ module camroller_spring_modes
       real(wp), allocatable :: frequency(:)
       !> s_n = (-1)^(n+1)/(n pi) [-]
       real(wp), allocatable :: share(:)
+      !> Slopes of the modes along the spring, `n pi cos(n pi xi)`, at places an eighth of the shortest half wave apart, shape
+      !> (mode, place) [-]
+      real(wp), allocatable :: slopes(:, :)
    end type spring_modes_t
 
 contains
@@ -51,7 +54,9 @@ contains
       !> The spring's stiffness [N/m]
       real(wp), intent(in) :: stiffness
 
-      integer :: n
+      ! Places within the shortest half wave
+      integer, parameter :: density = 8
+      integer :: n, i
 
       modes%count = surge%modes
       modes%mass = surge%mass
@@ -62,7 +67,29 @@ contains
          modes%frequency(n) = mode_frequency(n, stiffness, surge%mass)
          modes%share(n) = merge(1.0_wp, -1.0_wp, modulo(n, 2) == 1)/(n*pi)
       end do
+      allocate (modes%slopes(modes%count, density*modes%count + 1))
+      do i = 0, density*modes%count
+         modes%slopes(:, i + 1) = [(n*pi*cos(n*pi*i/(density*modes%count)), n=1, modes%count)]
+      end do
    end subroutine new_spring_modes
+
+   !> What waves add to the compression of the coils where they add most, as of the whole spring: with the whole spring's, coils
+   !> touch where it is the travel from free to solid length.
+   pure function wave_compression(modes, amplitudes) result(compression)
+      !> The modes
+      type(spring_modes_t), intent(in) :: modes
+      !> q_n [m]
+      real(wp), intent(in) :: amplitudes(:)
+      !> Largest of `sum n pi q_n cos(n pi xi)` [m]
+      real(wp) :: compression
+
+      integer :: i
+
+      compression = 0.0_wp
+      do i = 1, size(modes%slopes, 2)
+         compression = max(compression, dot_product(modes%slopes(:, i), amplitudes))
+      end do
+   end function wave_compression
 
    !> Angular frequency of a mode with both ends held.
    elemental function mode_frequency(n, stiffness, mass) result(frequency)

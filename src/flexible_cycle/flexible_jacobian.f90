@@ -206,8 +206,7 @@ contains
             associate (motion => [follow%load(i)/contact%load, entrainment(i), radius(i), speed(i), spin(i)])
                traction(i) = sum(slopes%traction*motion)
                ! `follow_contact` takes the resistance that is there for the law's own
-               rolling(i) = now%rolling_by_free*sum(slopes%rolling_resistance*motion)/now%rolling_share &
-                  & + now%rolling_by_limit*model%limiting_coefficient*follow%load(i)
+               rolling(i) = now%rolling_by_law*sum(slopes%rolling_resistance*motion) + now%rolling_by_load*follow%load(i)
                follow%bearing(i) = sum(slopes%bearing_torque*motion)
             end associate
             follow%tangential(i) = traction(i) + rolling(i)*now%parts%rolling_part &

@@ -17,6 +17,7 @@ module camroller_flexible_measures
       & at_speed
    use camroller_flexible_energy, only : powers_t, evaluate_powers
    use camroller_flexible_parts, only : damper_count
+   use camroller_spring_modes, only : wave_compression
    use camroller_torque_list, only : of_damping
    implicit none
    private
@@ -24,7 +25,8 @@ module camroller_flexible_measures
    public :: measure_t, measures, measure_count, measure_turn, pivot_force, largest_lift, largest_load, largest_load_angle, &
       & smallest_event_load, event_pivot_force, least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, &
       & float_share, losses_of_contact, drive_torque, loss_torque, damping_torque, smallest_pivot_force, tension_share, &
-      & surge_force, coil_ratio, lowest_plunger, highest_plunger, largest_pressure, leak_volume, check_share, residual_work, &
+      & surge_force, coil_ratio, coil_compression, lowest_plunger, highest_plunger, largest_pressure, leak_volume, &
+      & check_share, residual_work, &
       & gallery_torque, event_check_share, damper_works, lift_at_nose, speed_at_nose, smallest_lift, closed_load
 
    !> A measure: its name, unit and meaning
@@ -53,10 +55,10 @@ module camroller_flexible_measures
       & most_lift_error = 5, seating_speed = 6, bounce_height = 7, bounces = 8, float_share = 9, losses_of_contact = 10, &
       & drive_torque = 11, loss_torque = 12, damping_torque = 13, smallest_pivot_force = 14, tension_share = 15, &
       & surge_force = 16, coil_ratio = 17, event_pivot_force = 18, lift_at_nose = 19, speed_at_nose = 20, smallest_lift = 25, &
-      & seated_share = 26, closed_load = 27, residual_work = 28, lowest_plunger = 29, highest_plunger = 30, &
-      & largest_pressure = 31, leak_volume = 32, check_share = 33, gallery_torque = 34, event_check_share = 35
+      & seated_share = 26, closed_load = 27, coil_compression = 28, residual_work = 29, lowest_plunger = 30, highest_plunger = 31, &
+      & largest_pressure = 32, leak_volume = 33, check_share = 34, gallery_torque = 35, event_check_share = 36
    !> Places of the energies lost in the dampers, in the order of `powers_t`; the last four are of the adjuster
-   integer, parameter :: damper_works(damper_count) = [21, 22, 23, 24, 36, 37, 38, 39]
+   integer, parameter :: damper_works(damper_count) = [21, 22, 23, 24, 37, 38, 39, 40]
 
    !> The measures; those of the adjuster last
    type(measure_t), parameter :: measures(*) = [ &
@@ -76,7 +78,7 @@ module camroller_flexible_measures
       & measure_t("joint_force_min", "N", "smallest force in the joint of finger and pivot; negative: the socket would open"), &
       & measure_t("joint_tension_share", "1", "part of the cycle with tension in that joint"), &
       & measure_t("surge_force", "N", "largest force of the spring's first mode"), &
-      & measure_t("coil_ratio", "1", "largest travel of coils by the modes over that of the whole spring; above 1 coils clash"), &
+      & measure_t("coil_ratio", "1", "largest travel of coils by waves over the spring's compression; at 1 a part has none left"), &
       & measure_t("joint_force_min_event", "N", "smallest force in that joint in the upper three quarters of the lift"), &
       & measure_t("valve_lift_at_nose", "m", "lift at the cam angle of full lift"), &
       & measure_t("valve_velocity_at_nose", "m s-1", "speed of the valve at the cam angle of full lift"), &
@@ -87,6 +89,7 @@ module camroller_flexible_measures
       & measure_t("least_valve_lift", "m", "smallest lift of the turn; above 0 where the valve does not close"), &
       & measure_t("seated_share", "1", "part of the cycle with the valve on its seat"), &
       & measure_t("closed_load_max", "N", "largest contact load with the rigid train's valve closed"), &
+      & measure_t("coil_compression_max", "m", "largest compression of a part of the spring from free length, as of all of it"), &
       & measure_t("energy_residual_work", "J", "drive less losses less stored energy over the turn, and gallery"), &
       & measure_t("plunger_lowest", "m", "lowest place of the plunger"), &
       & measure_t("plunger_highest", "m", "highest place of the plunger"), &
@@ -353,18 +356,22 @@ contains
       !> The measures [unit of the measure]
       real(wp), intent(inout) :: values(:)
 
-      ! Travel of coils by the modes [m]
-      real(wp) :: travel
+      ! Compression of the whole spring, travel of coils by the modes [m]
+      real(wp) :: compression, travel
       integer :: first, n
 
+      compression = state(at_lift) + model%train%precompression
+      values(coil_compression) = max(values(coil_compression), compression)
       if (model%flexible%modes%count == 0) return
       first = first_mode(model)
+      values(coil_compression) = max(values(coil_compression), compression + wave_compression(model%flexible%modes, &
+         & state(first:first + 2*model%flexible%modes%count - 2:2)))
       values(surge_force) = max(values(surge_force), model%train%stiffness*pi*abs(state(first)))
       travel = 0.0_wp
       do n = 1, model%flexible%modes%count
          travel = travel + n*pi*abs(state(first + 2*(n - 1)))
       end do
-      values(coil_ratio) = max(values(coil_ratio), travel/(state(at_lift) + model%train%precompression))
+      values(coil_ratio) = max(values(coil_ratio), travel/compression)
    end subroutine add_spring
 
    !> Take a step at the seat into the measures: the valve meets its seat where its lift passes zero.

@@ -22,7 +22,7 @@ module camroller_train_outlook
    implicit none
    private
 
-   public :: outlook_t, find_outlook, find_modes, follow_oscillator, largest_response
+   public :: outlook_t, find_outlook, find_modes, follow_oscillator, gas_share, largest_response
 
    !> The estimates
    type :: outlook_t

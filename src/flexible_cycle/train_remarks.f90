@@ -4,17 +4,19 @@
 module camroller_train_remarks
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t, kind_domain, raise
-   use camroller_flexible_measures, only : bounce_height, bounces, closed_load, coil_ratio, event_check_share, &
+   use camroller_flexible_measures, only : bounce_height, bounces, closed_load, coil_compression, coil_ratio, event_check_share, &
       & highest_plunger, largest_lift, largest_load, losses_of_contact, lowest_plunger, seating_speed, smallest_lift, &
       & smallest_pivot_force, tension_share
    use camroller_flexible_solution, only : flexible_solution_t
    use camroller_flexible_train, only : at_lift
-   use camroller_kinds, only : wp
+   use camroller_gas, only : gas_force
+   use camroller_kinds, only : two_pi, wp
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_ode_problem, only : counters_t
-   use camroller_remarks, only : add_remark, bouncing_valve, clashing_coils, long_period, lost_contact, missing_lift, &
-      & no_period, open_pivot, open_valve, pressed_seat, remark_t, sinking_plunger, rising_plunger, stopped_plunger
+   use camroller_remarks, only : add_remark, bouncing_valve, long_period, lost_contact, missing_lift, no_period, open_pivot, &
+      & open_valve, pressed_seat, relieved_spring, remark_t, rising_plunger, sinking_plunger, stopped_plunger
+   use camroller_train_outlook, only : gas_share
    implicit none
    private
 
@@ -64,9 +66,12 @@ contains
       call judge_seat(model, solution, speed, remarks)
       if (allocated(model%flexible%adjuster)) call judge_plunger(model, solution, speed, remarks)
       if (solution%highest(coil_ratio) > 1.0_wp) then
-         call add_remark(remarks, clashing_coils, "coils of the spring may clash: its modes move them by up to "// &
-            & number_text(solution%highest(coil_ratio), 3)//" times what the spring is compressed by, which is not computed", &
-            & solution%highest(coil_ratio))
+         call add_remark(remarks, relieved_spring, "waves in the spring may take all compression from a part of it: "// &
+            & "they move coils by up to "//number_text(solution%highest(coil_ratio), 3)//" times what the spring is "// &
+            & "compressed by; a real spring then leaves its seat or its retainer, which is not computed. A part of it is "// &
+            & "compressed by up to "// &
+            & number_text(1.0e3_wp*solution%highest(coil_compression), 4)//" mm, as of the whole spring; with less than that "// &
+            & "to its solid length its coils clash", solution%highest(coil_ratio))
       end if
    end subroutine judge_train
 
@@ -111,12 +116,26 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
+      ! Load over that of the gas at rest above which something else makes it [-]; angles of a turn that are looked at
+      real(wp), parameter :: impact_factor = 1.5_wp
+      integer, parameter :: turn_samples = 720
+      ! Largest force of the gas [N]
+      real(wp) :: gas
+      integer :: i
+
       if (solution%highest(smallest_lift) > 0.0_wp) call add_remark(remarks, open_valve, "the valve does not close"// &
          & trim(merge(" in some cycles", "               ", .not. solution%lowest(smallest_lift) > 0.0_wp))//": it stays open "// &
          & "by at least "//number_text(1.0e3_wp*solution%highest(smallest_lift), 3)//" mm at "//speed, &
          & solution%highest(smallest_lift))
       if (.not. allocated(model%gas)) return
       if (solution%highest(closed_load) < solution%highest(largest_load)) return
+      gas = 0.0_wp
+      do i = 0, turn_samples - 1
+         gas = max(gas, gas_force(model%gas, two_pi*i/turn_samples))
+      end do
+      if (.not. gas > 0.0_wp) return
+      ! An impact of the valve is larger than what gas at rest explains
+      if (solution%highest(closed_load) > impact_factor*(model%base_circle_load + gas_share(model, gas)*gas)) return
       call add_remark(remarks, pressed_seat, "the gas presses the closed valve into its seat and the finger onto the cam: up "// &
          & "to "//number_text(solution%highest(closed_load), 4)//" N there, the largest load of the cycle, at "//speed// &
          & "; dynamics.seat_stiffness_N_m decides how much", solution%highest(closed_load))

@@ -1,5 +1,5 @@
-!> Margins against loss of contact and against opening of the pivot's joint: smallest force, its cam angle, and the cam speed at
-!> which it would be zero. Computed without friction, so they depend on the cam angle only.
+!> Margins against loss of contact, against opening of the pivot's joint and against gas that opens the valve: smallest force, its
+!> cam angle, and the cam speed at which it would be zero. Computed without friction, so they depend on the cam angle only.
 !>
 !> In: model, stops of a cycle. Out: margins of the event, of the base circle and of the pivot. Between two stops every force is
 !> a smooth function of the cam angle; each such interval is scanned, ends included, and an interior minimum is located to
@@ -8,6 +8,7 @@ module camroller_margins
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_positive_inf
    use camroller_kinds, only : wp, pi, degree
    use camroller_model, only : model_t, evaluate_geometry
+   use camroller_gas, only : gas_force
    use camroller_lift, only : is_at_rest
    use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
    use camroller_kinematics, only : position_t, evaluate_position
@@ -36,6 +37,8 @@ module camroller_margins
       type(margin_t) :: event, base_circle
       !> Force in the pivot's joint while the valve is off its seat; allocated where the finger's mass is known
       type(margin_t), allocatable :: pivot
+      !> Force between a valve on the base circle and its seat, the same at all speeds; allocated where gas acts on a rigid train
+      type(margin_t), allocatable :: seat
       !> Force of the lash adjuster on the base circle [N], and the cam speed at which the pivot's force first falls to it [rad/s]
       real(wp) :: adjuster_force = 0.0_wp, pump_up_speed = huge(1.0_wp)
    end type margins_t
@@ -84,6 +87,9 @@ contains
             call scan_piece(model, margins%adjuster_force, ends(i:i + 1), margins%event)
          end if
       end do
+      if (allocated(model%gas) .and. .not. (model%takes_maximum_load .or. allocated(model%flexible))) then
+         margins%seat = seat_margin(model)
+      end if
       ! with 'maximum' the adjuster holds the base circle load whatever the train does
       if (model%takes_maximum_load .or. all(in_event)) margins%base_circle = margin_t(model%base_circle_load)
       margins%pump_up_speed = infinite_if_huge(pump_up%speed)
@@ -91,6 +97,25 @@ contains
       margins%base_circle%speed = infinite_if_huge(margins%base_circle%speed)
       if (allocated(margins%pivot)) margins%pivot%speed = infinite_if_huge(margins%pivot%speed)
    end subroutine find_margins
+
+   !> Smallest force between the closed valve and its seat, at angles half a degree apart: pressures are tables of whole degrees.
+   function seat_margin(model) result(margin)
+      !> The model, with gas
+      type(model_t), intent(in) :: model
+      !> The margin
+      type(margin_t) :: margin
+
+      ! Cam angle [rad], force there [N]
+      real(wp) :: angle, force
+      integer :: i
+
+      do i = 0, nint(2.0_wp*pi/longest_step) - 1
+         angle = -pi + i*longest_step
+         if (.not. is_at_rest(model%lift_law, angle)) cycle
+         force = model%train%closed_seat_force + gas_force(model%gas, angle)
+         if (force < margin%force) margin = margin_t(force, angle)
+      end do
+   end function seat_margin
 
    !> Which pieces between stops belong to the event: those with the valve off its seat; where it never leaves it, those without a
    !> valve at rest; else all.

@@ -252,7 +252,8 @@ contains
       !> Lines so far
       character(len=:), allocatable, intent(inout) :: text
 
-      character(len=*), parameter :: n = new_line("a")
+      ! The one scalar of these that is no smallest value of a series
+      character(len=*), parameter :: n = new_line("a"), event_load = "min_event_contact_load"
       ! Of the speeds that are shown [rev/min over rad/s]
       real(wp) :: per_minute
       character(len=:), allocatable :: unit
@@ -266,7 +267,12 @@ contains
       call add_value(n//name//" smallest load of the event ", "margin_event", 1.0_wp)
       call add_value(" N, on the base circle ", "margin_base_circle", 1.0_wp)
       call add_value(" N; contact is lost above ", "contact_loss_speed", per_minute)
-      text = text//unit//n
+      text = text//unit//", all without friction"
+      if (find_quantity(result%summary, prefix//event_load) > 0) then
+         call add_value("; smallest load of the event with friction ", event_load, 1.0_wp)
+         text = text//" N"
+      end if
+      text = text//n
       if (find_quantity(result%summary, prefix//"train_frequency") == 0) return
       call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", per_minute)
       call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", per_minute)
@@ -295,6 +301,7 @@ contains
 
          place = 0
          if (index(scalar, "max_") == 1 .or. index(scalar, "min_") == 1) place = 4
+         if (scalar == event_load) place = 0
          call get_summary(result, scalar(:place)//prefix//scalar(place + 1:), value, error)
          text = text//introduction
          if (allocated(error)) then

@@ -22,8 +22,8 @@ module camroller_cycle_remarks
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
    use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
-      & foreign_asperities, hot_film, hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rolling_out_of_range, &
-      & rubbing_contact, rubbing_pin, standing_entrainment, unloaded_end, unresolved_slip, yielding_surface
+      & foreign_asperities, hot_film, hot_inlet, lifted_valve, lost_contact, open_pivot, outside_range, pumped_adjuster, &
+      & rolling_out_of_range, rubbing_contact, rubbing_pin, standing_entrainment, unloaded_end, unresolved_slip, yielding_surface
    use camroller_result, only : find_quantity, lobe_scope, quantity_t
    implicit none
    private
@@ -88,6 +88,11 @@ contains
       call check_entrainment(statistics, remarks)
       call check_ends(statistics, remarks)
       if (.not. allocated(cycle%flexible)) call check_pivot(model, margins, remarks)
+      if (allocated(margins%seat)) then
+         if (margins%seat%force < 0.0_wp) call add_remark(remarks, lifted_valve, "the gas lifts the closed valve off its seat: "// &
+            & number_text(-margins%seat%force, 3)//" N are missing at "//cam_angle_text(margins%seat%angle, 1)//" to hold it, "// &
+            & "and the rigid train keeps it shut; &dynamics lets it open", -margins%seat%force)
+      end if
       if (lobe == 0) return
       call add_context(error, trim(lobe_scope(lobe)))
       do i = first, size(remarks)

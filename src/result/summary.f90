@@ -326,6 +326,8 @@ contains
             & "first falls to the adjuster's, which then follows; without friction, infinite if never", "dynamics", &
             & margins%pump_up_speed)
       end if
+      if (allocated(margins%seat)) call add(list, "margin_seat", "N", "smallest force between the valve and its seat on the "// &
+         & "base circle; negative where gas lifts it off", "gas_force", margins%seat%force)
       do i = first, list%count
          list%items(i)%name = trim(lobe_prefix(lobe))//list%items(i)%name
          list%items(i)%scope = lobe_scope(lobe)

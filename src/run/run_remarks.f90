@@ -1,5 +1,5 @@
 !> Remarks on a result as a whole: an accuracy that was not reached, a tolerance that says nothing of the error, a motion without a
-!> period; a roller that does not turn, wear that would change the cam.
+!> period; a roller that does not turn, slices of it that are too narrow, wear that would change the cam.
 !>
 !> In: numerics as given, the result of a case. Out: remarks, or an error where nothing of the result can be right.
 module camroller_run_remarks
@@ -7,15 +7,16 @@ module camroller_run_remarks
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond
    use camroller_case, only : numerics_t
-   use camroller_number_text, only : number_text, fixed_text
+   use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
    use camroller_remarks, only : add_remark, deep_wear, idle_roller, loose_tolerance, missed_accuracy, missed_extremes, &
-      & missed_means, no_period
+      & missed_means, narrow_slices, no_period
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
+   use camroller_roller_profile, only : coupling_half_space, coupling_names, roller_profile_t
    implicit none
    private
 
-   public :: judge, judge_wear
+   public :: judge, judge_slices, judge_wear
 
    !> Slip over a turn of the cam beyond which a roller does not roll: those of engines slip by some per cent, and by half on their
    !> base circle alone; one that makes less than a tenth of its turns is a sliding follower [-]
@@ -23,6 +24,9 @@ module camroller_run_remarks
    !> Wear over the largest lift of the valve that is none of a surface any more: a hundredth is about the 0.09 mm that
    !> oils for gasoline engines may let a cam lose in the Sequence IVA test (ASTM D6891, ILSAC GF-5) [-]
    real(wp), parameter :: deep_part = 0.01_wp
+   !> Width of a slice over the largest half width of the contact below which the contact is computed too soft: from there on its
+   !> largest pressure is more than one per cent below that of Hertz' ellipse (measured for crowns of 0.1 to 0.5 m) [-]
+   real(wp), parameter :: narrowest_slice = 0.8_wp
 
 contains
 
@@ -63,6 +67,33 @@ contains
          end associate
       end do
    end subroutine judge_turns
+
+   !> Say that slices of the roller are narrower than the theory of slender contacts allows.
+   subroutine judge_slices(profile, length, result)
+      !> Profile of the roller
+      type(roller_profile_t), intent(in) :: profile
+      !> Length of the contact [m]
+      real(wp), intent(in) :: length
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+
+      ! Width of a slice, largest half width of the contact [m]
+      real(wp) :: width, half_width
+      integer :: lobe, place
+
+      if (profile%coupling /= coupling_names(coupling_half_space)) return
+      width = length/profile%slices
+      do lobe = 1, size(result%summary)
+         place = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"hertz_half_width")
+         if (place == 0) exit
+         half_width = result%summary_values(place)
+         if (width >= narrowest_slice*half_width) cycle
+         call add_named(result, lobe, narrow_slices, "slices of the roller are "//number_text(1.0e3_wp*width, 3)// &
+            & " mm wide and the contact is up to "//number_text(1.0e3_wp*half_width, 3)//" mm half wide: so narrow slices make "// &
+            & "it too soft; take "//integer_text(int(0.95_wp*length/(narrowest_slice*half_width)))//" at most "// &
+            & "(roller_profile.slices)", half_width/width)
+      end do
+   end subroutine judge_slices
 
    !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
    subroutine judge_wear(result)

@@ -47,6 +47,20 @@ def test_the_pressure_is_that_where_the_load_along_the_roller_is_largest(camroll
     assert "the pressure goes up to 1.08 GPa" in remarks(camroller, tmp_path, "operating_point.oil_temperature_degC=95", deck=deck)
 
 
+@pytest.mark.parametrize("slices, most", [(41, None), (201, r"; take (1[0-9]{2}) at most \(roller_profile.slices\)")])
+def test_slices_far_narrower_than_the_contact_give_a_remark(camroller, tmp_path, slices, most):
+    deck = tmp_path / "crowned.nml"
+    deck.write_text((ROOT / "decks/thesis.nml").read_text(encoding="utf-8") + "\n&roller_profile profile = 'crowned' crown_radius_mm = 500 /\n",
+                    encoding="utf-8")
+    text = remarks(camroller, tmp_path, f"roller_profile.slices={slices}", deck=deck)
+    if most is None:
+        assert "slices of the roller are" not in text
+        return
+    told = re.search(most, text)
+    assert told, text
+    assert "slices of the roller are" not in remarks(camroller, tmp_path, f"roller_profile.slices={told[1]}", deck=deck)
+
+
 @pytest.mark.parametrize("deck, settings, words", [
     ("decks/thesis.nml", (), None),
     # half of the turns are lost, and the roller still rolls

@@ -240,6 +240,9 @@ def test_gas_on_the_closed_valve_is_in_the_estimate_and_has_a_remark(tmp_path, c
     assert "the gas presses" not in quiet and usual["closed_load_max"] < usual["dynamic_load_max"]
     hard, _ = run(camroller, tmp_path / "deck.nml", tmp_path / "hard.h5", "sweep.values_1=900", "dynamics.seat_stiffness_N_m=5e9")
     assert hard["closed_load_max"] < 0.25 * summary["closed_load_max"]
+    # Far beyond its speed the valve hits its seat with far more than the gas has
+    wild, said = run(camroller, tmp_path / "deck.nml", tmp_path / "wild.h5", "sweep.values_1=5000", "gas_force.valve_diameter_mm=3")
+    assert wild["closed_load_max"] == wild["dynamic_load_max"] and "the valve bounces" in said and "the gas presses" not in said
 
 
 @pytest.mark.parametrize("change", ["spring_surge.damping_ratio=0", "dynamics.contact_damping_s_m=100"])
@@ -279,12 +282,13 @@ def test_errors_of_means_and_extremes_are_as_estimated(deck, speed, tmp_path, ca
 
 REFERENCE = [line for line in (ROOT / "test/data/train_reference.csv").read_text().splitlines() if not line.startswith("#")]
 # Columns of the reference, names here, difference allowed, over the value or a size in SI units where one is given. The program's default
-# accuracy is 1e-4 of the largest load; extremes of the reference are the largest of 30 000 points, and shares integrals of jumps there. The
+# accuracy is 1e-4 of the largest load; extremes of the reference are the largest of 30 000 points, and shares integrals of jumps there:
+# shares of tension scatter by 1 % between runs of the reference whose torques differ by 4e-4. The
 # largest lift error at 2900 rev/min scatters by 1.4e-9 m with speeds that differ by 1e-7: the search between points leaves 3e-5 of its range.
 COMPARED = [("load_max", "dynamic_load_max", 1e-4, 0), ("lift_error_min", "lift_error_min", 1e-4, 0),
             ("lift_error_max", "lift_error_max", 2e-3, 1e-6), ("seating", "seating_speed", 2e-4, 1e-3),
             ("joint_min", "joint_force_min", 1e-3, 10),
-            ("tension_share", "joint_tension_share", 4e-3, 0), ("float_share", "float_share", 4e-3, 0),
+            ("tension_share", "joint_tension_share", 1.2e-2, 0), ("float_share", "float_share", 4e-3, 0),
             ("losses_of_contact", "losses_of_contact", 0, 1), ("surge", "surge_force", 1e-4, 0), ("coils", "coil_ratio", 6e-4, 0),
             ("mean_drive", "mean_torque_drive", 1e-5, 0), ("loss", "mean_torque_friction", 1e-5, 0),
             ("mean_damping", "damping_torque", 1e-4, 0), ("y_min", "plunger_lowest", 1e-4, 0), ("y_max", "plunger_highest", 3e-4, 0),

@@ -100,6 +100,30 @@ def test_series_of_a_single_lobe_have_plain_names(camroller, tmp_path):
         assert not [name for group in ("series", "summary") for name in file[group] if "lobe" in name]
 
 
+@pytest.mark.parametrize("lowest", [-0.9, -0.5])
+def test_gas_that_lifts_the_closed_valve_is_told(camroller, tmp_path, lowest):
+    """Its force on a valve of 60 mm against that of the spring less the adjuster's, at the lever arms of the base circle."""
+    angle = numpy.arange(0, 361, 10.0)
+    numpy.savetxt(tmp_path / "gas.txt", numpy.c_[angle, lowest * (0.6 - 0.4 * numpy.cos(numpy.radians(angle)))], fmt="%.6f")
+    (tmp_path / "deck.nml").write_text((DECKS / "thesis.nml").read_text() + "\n&gas_force table = 'gas.txt' pressure_unit = 'bar'\n"
+                                       "valve_diameter_mm = 60 /\n")
+    seat = {}
+    for name, settings in (("gas", []), ("none", ["--set", "gas_force.valve_diameter_mm=1e-3"])):
+        done = run(camroller, "run", "deck.nml", "--no-sweep", "-o", name + ".h5", *COARSE, *settings, folder=tmp_path)
+        assert done.returncode == 0, done.stderr
+        with h5py.File(tmp_path / (name + ".h5")) as file:
+            seat[name] = file["summary/margin_seat"][...].ravel()[0]
+    # The valve is closed where the pressure is at its middle and nearer to zero; it opens about the nose at 180 degrees
+    with h5py.File(tmp_path / "gas.h5") as file:
+        closed = file["series/valve_lift"][...].ravel() <= 0
+        place = file["series/cam_angle"][...].ravel()[closed]
+        pull = lowest * 1e5 * (0.6 - 0.4 * numpy.cos(numpy.radians(place))).max() * numpy.pi / 4 * 0.06**2
+        # rows of half a degree at the search, of five in the series
+        assert seat["gas"] == pytest.approx(seat["none"] + pull, abs=abs(pull) * 0.4 * numpy.radians(5))
+        assert ("the gas lifts the closed valve off its seat" in remarks_of(tmp_path / "gas.h5")[0]) == (seat["gas"] < 0)
+    assert (seat["gas"] < 0) == (lowest < -0.8)
+
+
 def test_limit_speeds_that_are_never_reached_are_infinite(camroller, tmp_path):
     assert run(camroller, "run", DECKS / "thesis.nml", *COARSE, "-o", "r.h5", folder=tmp_path).returncode == 0
     with h5py.File(tmp_path / "r.h5") as file:

@@ -78,6 +78,15 @@ def test_check_prints_facts_of_the_deck(camroller):
     assert "?" not in text.split("&case")[0]
 
 
+def test_check_tells_the_margins_without_friction_from_the_load_with_it(camroller):
+    """A stem seal in cold oil lifts the follower off its cam, which the margins do not know."""
+    deck = (ROOT / "decks/thesis.nml").read_text() + "&stem_seal lip_force_N = 5 viscous_drag_N_s_m = 3 reference_viscosity_Pa_s = 0.01 /\n"
+    text = run(camroller, "check", "-", "--no-sweep", "--set", "operating_point.oil_temperature_degC=-20",
+               "--set", "operating_point.speed_rpm=300", given=deck).stdout
+    told = re.search(r"smallest load of the event (\d+) N, .*, all without friction; smallest load of the event with friction 0 N", text)
+    assert told and int(told[1]) > 300, text
+
+
 def test_check_says_where_a_bearing_law_is_outside_its_range(camroller):
     text = run(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
     assert "width over diameter 0.87, law 'long_full_sommerfeld', which is for bearings wider than 2 diameters; 'finite'" in text

@@ -45,7 +45,7 @@ DIMENSIONS = {
     rf"{STATISTIC}energy_residual": POWER,
     r"power_(contact|needle|guide|bearings|friction)": POWER,
     r"work_(contact|needle|guide|bearings|friction)": TORQUE,
-    r"spring_margin|margin_(event|base_circle|pivot)|min_event_contact_load|adjuster_force": FORCE,
+    r"spring_margin|margin_(event|base_circle|pivot|seat)|min_event_contact_load|adjuster_force": FORCE,
     r"contact_loss_speed|margin_(event|base_circle|pivot)_speed|pump_up_speed|train_frequency": RATE,
     r"cam_angle|(estimated_error|margin_(event|base_circle|pivot))_angle": NUMBER,
     r"revolution_slip|lost_contact_share|outside_film_range_share|relative_energy_residual|estimated_error(_of_means|_of_extremes)?": NUMBER,

@@ -27,6 +27,7 @@ contains
          new_unittest("the approach under the same load all along is Lundberg's", test_approach), &
          new_unittest("Lundberg's profile has the same load all along it at its load", test_lundberg), &
          new_unittest("a crown that is not cut off is Hertz' ellipse", test_ellipse), &
+         new_unittest("slices as wide as the contact is half wide have the load of Hertz' ellipse", test_narrow_slices), &
          new_unittest("a load that rises along the roller has the gap of Legendre's polynomials", test_legendre), &
          new_unittest("slices that do not see each other have a small tilt's load in closed form", test_small_tilt), &
          new_unittest("a tilted crown is the crown at another place", test_tilted_crown), &
@@ -143,11 +144,38 @@ contains
    subroutine test_ellipse(error)
       type(error_type), allocatable, intent(out) :: error
       type(roller_profile_t) :: profile
-      ! Axes' ratio, complete integrals [-]; half length [m]; largest load over the mean [-]
-      real(wp) :: ratio, low, high, integrals(2), a, largest, approach
+      ! Axes' ratio [-]; half length [m]; largest load over the mean [-]
+      real(wp) :: ratio, a, largest, approach
       real(wp), allocatable :: loads(:)
       real(wp), parameter :: crown = 3.0_wp
-      integer :: i, n
+      integer :: n
+
+      call find_ellipse(crown, 50.0_wp, a, ratio)
+      profile%profile = "crowned"
+      profile%crown_radius = crown
+      do n = 41, 161, 60
+         allocate (loads(n))
+         call solve(error, gaps_of(profile, n), .true., 50.0_wp, loads, approach)
+         if (allocated(error)) return
+         largest = 0.75_wp*roller_length/a
+         ! the square of a slice's part of the half length; what is left out across, the square of the axes' ratio by a logarithm
+         call check_close(error, maxval(loads), largest, (roller_length/(n*a))**2 + 10.0_wp*ratio**2, "largest load")
+         if (allocated(error)) return
+         call check_scaled(error, count(loads > 0.0_wp)*roller_length/n, 2.0_wp*a, roller_length/n, 2.0_wp, "length")
+         if (allocated(error)) return
+         deallocate (loads)
+      end do
+   end subroutine test_ellipse
+
+   !> Hertz' ellipse of a crown: half length and axes' ratio.
+   pure subroutine find_ellipse(crown, load, half_length, ratio)
+      !> Radius of the crown [m], load [N]
+      real(wp), intent(in) :: crown, load
+      !> Half length [m], half width over it [-]
+      real(wp), intent(out) :: half_length, ratio
+      ! Bounds of the ratio, complete integrals [-]
+      real(wp) :: low, high, integrals(2)
+      integer :: i
 
       low = 1.0e-4_wp
       high = 1.0_wp
@@ -160,22 +188,33 @@ contains
             low = ratio
          end if
       end do
+      half_length = (6.0_wp*load*crown*(integrals(1) - integrals(2))/(pi*modulus*(1.0_wp - ratio**2)))**(1.0_wp/3.0_wp)
+   end subroutine find_ellipse
+
+   !> Slices narrower than the contact is wide make it softer. What they leave is measured: 0.7 to 1.1 % of the largest load; with
+   !> half widths that count no more than the width of a slice it would be 3 to 4 %.
+   subroutine test_narrow_slices(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(roller_profile_t) :: profile
+      ! Radii of the crown [m], load [N]
+      real(wp), parameter :: crowns(3) = [0.15_wp, 0.3_wp, 0.5_wp], load = 741.0_wp
+      ! Half length [m], axes' ratio [-], approach [m]
+      real(wp) :: a, ratio, approach
+      real(wp), allocatable :: loads(:)
+      integer :: i
+
       profile%profile = "crowned"
-      profile%crown_radius = crown
-      do n = 41, 161, 60
-         allocate (loads(n))
-         call solve(error, gaps_of(profile, n), .true., 50.0_wp, loads, approach)
+      do i = 1, size(crowns)
+         profile%crown_radius = crowns(i)
+         call find_ellipse(crowns(i), load, a, ratio)
+         allocate (loads(nint(roller_length/(ratio*a))))
+         call solve(error, gaps_of(profile, size(loads)), .true., load, loads, approach)
          if (allocated(error)) return
-         a = (6.0_wp*50.0_wp*crown*(integrals(1) - integrals(2))/(pi*modulus*(1.0_wp - ratio**2)))**(1.0_wp/3.0_wp)
-         largest = 0.75_wp*roller_length/a
-         ! the square of a slice's part of the half length; what is left out across, the square of the axes' ratio by a logarithm
-         call check_close(error, maxval(loads), largest, (roller_length/(n*a))**2 + 10.0_wp*ratio**2, "largest load")
-         if (allocated(error)) return
-         call check_scaled(error, count(loads > 0.0_wp)*roller_length/n, 2.0_wp*a, roller_length/n, 2.0_wp, "length")
+         call check_close(error, maxval(loads), 0.75_wp*roller_length/a, 0.02_wp, "largest load")
          if (allocated(error)) return
          deallocate (loads)
       end do
-   end subroutine test_ellipse
+   end subroutine test_narrow_slices
 
    !> Complete elliptic integrals of first and second kind by the arithmetic-geometric mean.
    pure function elliptic(m) result(integrals)

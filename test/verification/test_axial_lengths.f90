@@ -86,7 +86,7 @@ contains
       if (.not. allocated(error)) call check_scaled(error, found%loaded, expected%loaded, 1.0_wp, 1.0e-8_wp, what//", loaded")
    end subroutine check_all_close
 
-   !> By Schwarz' inequality `W^2 <= L int w^2 dy`. A flat roller carries all along; the stress at its ends is the less of its load the
+   !> By Schwarz' inequality `W^2 <= L int w^2 dy`. A flat roller carries all along; its ends carry the less of the load the
    !> narrower the contact is.
    subroutine test_small_loads(error)
       type(error_type), allocatable, intent(out) :: error

@@ -1,14 +1,23 @@
 !> Kernels of a flexible train against closed forms.
 module test_flexible_parts
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller_kinds, only : wp, two_pi
+   use camroller_case, only : case_t
+   use camroller_error, only : error_t
+   use camroller_flexible_setup, only : find_rest, rest_t
+   use camroller_flexible_train, only : evaluate_train, flexible_state_t, resolution_t, state_size
+   use camroller_kinds, only : pi, two_pi, wp
+   use camroller_model, only : model_t
+   use camroller_traction, only : rolling_resistance, same_lengths
    use camroller_contact_compliance, only : line_compliance, series_load, series_energy, one_sided_force, restitution, &
       & damping_of_restitution
-   use camroller_spring_modes, only : spring_surge_t, spring_modes_t, new_spring_modes, effective_mass, surge_of_harmonic
+   use camroller_spring_modes, only : spring_surge_t, spring_modes_t, new_spring_modes, effective_mass, surge_of_harmonic, &
+      & wave_compression
    use camroller_lash_adjuster, only : lash_adjuster_t, adjuster_t, flows_t, leak_end_names, new_adjuster, set_adjuster_oil, &
       & bulk_modulus, relative_volume, pressure_work, evaluate_flows, leak_down_time
    use camroller_quadrature, only : gauss_legendre
-   use closeness, only : check_close, check_scaled
+   use closeness, only : check_close, check_scaled, expect_success
+   use flexible_cases, only : add_dynamics
+   use reference_cases, only : make_model, point_speeds, set_point, thesis_case
    implicit none
    private
 
@@ -25,9 +34,12 @@ contains
          new_unittest("restitution of a damping proportional to the force agrees with the closed form", test_restitution), &
          new_unittest("a body leaves a damped contact at the speed of the closed form", test_impact), &
          new_unittest("modes of a spring, alone and with a mass at its end", test_modes), &
+         new_unittest("what waves add to the compression of coils is the largest slope of their shape", test_waves), &
          new_unittest("surge forced by one harmonic of the lift agrees with the closed form", test_surge), &
          new_unittest("bulk modulus of oil that contains air", test_bulk_modulus), &
          new_unittest("derivatives of an adjuster's flows and compression work agree with difference quotients", test_flows), &
+         new_unittest("rolling resistance of a train under load is that of its law, and stays below a load of nothing", &
+            & test_rolling), &
          new_unittest("leak-down time of an adjuster agrees with the reference", test_leak_down) &
          ]
    end subroutine collect_flexible_parts
@@ -157,6 +169,22 @@ contains
       call check_close(error, sqrt(25.0e3_wp/0.0432_wp)/two_pi, 121.0733_wp, 1.0e-6_wp, "a third of the mass at the end")
    end subroutine test_modes
 
+   !> `a pi cos(pi xi) + 2 b pi cos(2 pi xi)` is largest at an end, or in between at `cos(pi xi) = -a/(8 b)` where b is negative.
+   !> The places are a sixteenth apart: so near to the crest that `(pi/16)^2/2` times the curvature is left.
+   subroutine test_waves(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(spring_modes_t) :: modes
+      real(wp), parameter :: one(2) = [-3.0e-4_wp, 0.0_wp], both(2) = [1.0e-4_wp, 2.0e-4_wp], inside(2) = [1.0e-4_wp, -1.0e-4_wp]
+
+      call new_spring_modes(modes, spring_surge_t(mass=0.036_wp, modes=2), 25.0e3_wp)
+      call check_close(error, wave_compression(modes, one), 3.0e-4_wp*pi, 1.0e-14_wp, "one mode")
+      if (allocated(error)) return
+      call check_close(error, wave_compression(modes, both), 5.0e-4_wp*pi, 1.0e-14_wp, "two modes")
+      if (allocated(error)) return
+      ! at cos(pi xi) = 1/8: (1/8 + 2 - 4/64) pi
+      call check_close(error, wave_compression(modes, inside), 2.0625e-4_wp*pi, 0.02_wp, "between the ends")
+   end subroutine test_waves
+
    !> A frequency of spring and mass: root of the dynamic stiffness of the modal form.
    function frequency_with_mass(count, mass, above, below) result(frequency)
       integer, intent(in) :: count
@@ -261,6 +289,63 @@ contains
       if (allocated(error)) return
       call check_close(error, adjuster%conductance, 4.090615e-15_wp, 1.0e-6_wp, "conductance of the gap")
    end subroutine test_flows
+
+   !> Resistance over that of its law, for cold oil, whose resistance is large: what is left out is a quarter of the fourth power of
+   !> its ratio to the load.
+   subroutine test_rolling(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(rest_t) :: rest
+      type(flexible_state_t) :: now
+      type(error_t), allocatable :: failure
+      real(wp), allocatable :: state(:)
+      ! Viscosity [Pa s]; resistance of the law [N], its slope [-]
+      real(wp), parameter :: cold = 3.0_wp
+      real(wp) :: expected, slope
+      ! Turn of the finger by which the approach moves [rad], the approach [m]
+      real(wp), parameter :: turned = 1.0e-8_wp
+      real(wp) :: approach
+      integer :: i, status
+
+      case = thesis_case()
+      deallocate (case%asperity)
+      call set_point(case, point_speeds(3), cold)
+      call add_dynamics(case, 3, .false.)
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call find_rest(model%flexible, model%linkage, model%train, 64.0_wp, rest, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      allocate (state(state_size(model)), source=0.0_wp)
+      state(3) = rest%lift
+      do i = 0, 1
+         ! At rest, and with the finger so far off that next to nothing is left of the approach of cam and roller
+         state(1) = rest%finger
+         if (i == 1) then
+            approach = now%touch%approach
+            state(1) = rest%finger + turned
+            call evaluate_train(model, -pi, state, resolution_t(), now, status)
+            state(1) = rest%finger - (1.0_wp - 1.0e-4_wp)*turned*approach/(now%touch%approach - approach)
+         end if
+         call evaluate_train(model, -pi, state, resolution_t(), now, status)
+         call check(error, status, 0)
+         if (allocated(error)) return
+         call rolling_resistance(model%rolling_law, now%setting%line%groups%speed, now%setting%line%groups%load, model%modulus, &
+            & now%touch%position%equivalent_radius, same_lengths(model%contact_width), model%oil%pressure_viscosity, expected, &
+            & slope)
+         associate (found => abs(now%contact%rolling_resistance), load => now%contact%load)
+            if (i == 0) then
+               call check(error, expected > 0.02_wp*load, "hardly any resistance")
+               if (.not. allocated(error)) call check_close(error, found, expected, (expected/load)**4, "resistance")
+            else
+               call check(error, expected > load .and. load > 0.0_wp, "too much load, or none")
+               if (.not. allocated(error)) call check(error, found < load, "resistance over the load")
+            end if
+         end associate
+         if (allocated(error)) return
+      end do
+   end subroutine test_rolling
 
    subroutine test_leak_down(error)
       type(error_type), allocatable, intent(out) :: error
