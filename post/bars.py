@@ -27,7 +27,7 @@ def shown_in_bars(layout):
     if layout.is_list:
         return list(layout.colours), list(layout.panels)
     panels = layout.shown_panels(MOST_PANELS)
-    return thin_out(layout.colours, max(MOST_COLOURS, MOST_BARS // len(panels))), panels
+    return layout.some_colours(max(MOST_COLOURS, MOST_BARS // len(panels))), panels
 
 
 def slip_bars(figure, layout):

@@ -23,12 +23,13 @@ def dampers_figure(layout, _whole_cycle=None):
     panels = layout.shown_panels(MOST_PANELS)
     columns = [layout.entries_of(panel, layout.shown_colours()) for panel in panels]
     lost = {words: [[mean_of(layout, entry, name, UNIT) or 0.0 for entry in entries] for entries in columns] for name, words in DAMPERS}
-    lost = {words: values for words, values in lost.items() if np.nanmax(values) > 0.0}
+    most = {words: np.nanmax([0.0, *(value for of_panel in values for value in of_panel)]) for words, values in lost.items()}
+    lost = {words: values for words, values in lost.items() if most[words] > 0.0}
     if not lost:
         raise Missing("energies lost in dampers: &dynamics")
-    top = np.nanmax(list(lost.values()))
-    legend = legend_handles(layout)
-    size = 5.0 + 2.5 * len(panels), 1.6 + (0.13 * len(columns[0]) + 0.1) * len(lost)
+    top = max(most.values())
+    legend = legend_handles(layout, layout.drawn(layout.shown_colours(), panels))
+    size = 5.0 + 2.5 * len(panels), 1.6 + (0.13 * max(map(len, columns)) + 0.1) * len(lost)
     figure = Figure(figsize=(size[0], size[1] + legend_height(legend, size[0])), layout="constrained")
     for place, (axes, panel, entries) in enumerate(zip(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels, columns)):
         width = ROOM / len(entries)
@@ -44,5 +45,5 @@ def dampers_figure(layout, _whole_cycle=None):
             axes.set_title(layout.panel_name(panel), fontsize="medium")
     figure.axes[0].set_yticks(range(len(lost)), lost)
     figure.axes[0].set_ylim(len(lost) - 0.5, -0.5)
-    head(figure, layout, "energy lost in a turn by damper", legend, layout.shown_words(len(layout.shown_colours()), panels))
+    head(figure, layout, "energy lost in a turn by damper", legend, layout.shown_words(layout.shown_colours(), panels))
     return figure

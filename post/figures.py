@@ -11,7 +11,7 @@ import numpy as np
 
 from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
 from dampers import dampers_figure
-from layout import line_style, thin_out, wrapped
+from layout import line_style, wrapped
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
 from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, values_of
@@ -37,7 +37,8 @@ def curve_figure(curve, layout, whole_cycle):
     panels = layout.panels[:1] if same else layout.shown_panels(MOST_PANELS)
     columns = min(len(panels), 3)
     rows = -(-len(panels) // columns)
-    legend, width = legend_handles(layout), 7.0 if columns == 1 else 2.0 + 3.2 * columns
+    shown = layout.shown_colours(), panels, [curve.series]
+    legend, width = legend_handles(layout, layout.drawn(*shown)), 7.0 if columns == 1 else 2.0 + 3.2 * columns
     figure = Figure(figsize=(width, 1.6 + 2.9 * rows + legend_height(legend, width)), layout="constrained")
     grid = figure.subplots(rows, columns, squeeze=False)
     whole = curve.whole_cycle if whole_cycle is None else whole_cycle
@@ -54,7 +55,7 @@ def curve_figure(curve, layout, whole_cycle):
         if place % columns == 0:
             axes.set_ylabel(f"{curve.title} [{unit_words(curve.unit)}]")
     title = curve.title + (f", the same at each {layout.panel_words()}" if same else "")
-    head(figure, layout, title, legend, layout.shown_words(len(layout.shown_colours()), layout.panels if same else panels))
+    head(figure, layout, title, legend, layout.shown_words(shown[0], layout.panels if same else panels, shown[2]))
     return figure
 
 
@@ -74,7 +75,8 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
     parts = [part for part in parts if has_series(layout, part[0])] or parts
     need_series(layout, *(name for name, *_ in parts))
     layout.refuse_too_many()
-    colours, panels = (layout.colours if layout.is_list else thin_out(layout.colours, 3)), layout.shown_panels(3)
+    colours, panels = layout.some_colours(3), layout.shown_panels(3)
+    shown = colours, panels, [name for name, *_ in parts]
     places = [(colour, panel) for colour in colours for panel in panels]
     columns = min(3, len(places)) if layout.is_list else len(panels)
     rows = -(-len(places) // columns)
@@ -102,16 +104,17 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
                         (min(pair[0] for pair in known), max(pair[1] for pair in known)) if known else None)
     for axes in grid[len(places):]:
         axes.remove()
-    head(figure, layout, title, _torque_legend(layout, parts), layout.shown_words(len(colours), panels))
+    head(figure, layout, title, _torque_legend(layout, parts, layout.drawn(*shown)), layout.shown_words(*shown))
     return figure
 
 
-def _torque_legend(layout, parts):
-    """The parts, in the colours of each file."""
-    entries = [[Line2D([], [], color=tones[place % len(tones)], linestyle=dash if len(layout.files) == 1 else line_style(place),
-                       linewidth=width, label=label) for _, label, tones, dash, width in parts]
-               for place in range(len(layout.files))]
-    return (entries[0], None) if len(entries) == 1 else file_legend(layout, entries)
+def _torque_legend(layout, parts, drawn):
+    """The parts, in the colours of each file that is drawn and has them."""
+    there = {number: layout.results[number].series for number in layout.files if number in {entry.file for entry in drawn}}
+    entries = {number: [Line2D([], [], color=tones[place % len(tones)], linestyle=dash if len(layout.files) == 1 else line_style(place),
+                               linewidth=width, label=label) for name, label, tones, dash, width in parts if name in there[number]]
+               for place, number in enumerate(layout.files) if number in there}
+    return (next(iter(entries.values()), []), None) if len(layout.files) == 1 else file_legend(layout, entries)
 
 
 def _torque_curve(axes, layout, entry, part, window, unit):
@@ -138,12 +141,13 @@ def overview_figure(layout, wanted, parts, needed=()):
     panels = layout.shown_panels(MOST_COLUMNS)
     columns = len(panels) if len(panels) > 1 else 2
     rows = len(curves) if len(panels) > 1 else -(-len(curves) // columns)
-    legend, width = legend_handles(layout), 2.0 + 3.2 * columns
+    shown = layout.shown_colours(), panels, [curve.series for curve in curves]
+    legend, width = legend_handles(layout, layout.drawn(*shown)), 2.0 + 3.2 * columns
     heights = [1.5 + 1.5 * rows + legend_height(legend, width), lying_height(layout) or 2.6 + 0.8 * len(layout.files)]
     figure = Figure(figsize=(width, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
     _overview_curves(upper, layout, curves, panels, (rows, columns))
-    head(upper, layout, "", legend, _left_out(layout, panels, bars))
+    head(upper, layout, "", legend, _left_out(layout, layout.shown_words(*shown), bars))
     if layout.is_list and len(bars) > 1 and len(layout.files) == 1:
         both_bars(lower, layout)
         return figure
@@ -152,9 +156,8 @@ def overview_figure(layout, wanted, parts, needed=()):
     return figure
 
 
-def _left_out(layout, panels, bars):
-    """What curves and bars of an overview leave out."""
-    of_curves = layout.shown_words(len(layout.shown_colours()), panels)
+def _left_out(layout, of_curves, bars):
+    """What curves and bars of an overview leave out, in words."""
     of_bars = _left_out_of_bars(layout) if bars else of_curves
     if of_curves == of_bars:
         return of_curves
@@ -164,7 +167,7 @@ def _left_out(layout, panels, bars):
 def _left_out_of_bars(layout):
     """What bars leave out."""
     colours, panels = shown_in_bars(layout)
-    return layout.shown_words(len(colours), panels)
+    return layout.shown_words(colours, panels)
 
 
 def lying_height(layout):

@@ -42,14 +42,17 @@ class Layout:
     def __init__(self, results, selections=()):
         self.results = results
         for result in results:
+            result.need_results()
             add_derived(result)
         keys = list(dict.fromkeys(key for result in results for key in result.sweep))
         self.colour_key, self.panel_keys = (keys[0], keys[1:]) if keys else (None, [])
         self.units = {key: _unit(key, results) for key in keys}
         self.short_names = _short_names(keys, results)
         self.entries = []
+        self.failed = [{case for case, _ in result.failed_cases()} for result in results]
+        self.chosen = [chosen_cases(result, selections) for result in results]
         for number, result in enumerate(results):
-            for case in chosen_cases(result, selections):
+            for case in self.chosen[number]:
                 self.entries.append(Entry(number, case, _plain(result, self.colour_key, case),
                                           tuple(_plain(result, key, case) for key in self.panel_keys)))
         if not self.entries:
@@ -69,9 +72,8 @@ class Layout:
         """Cases whose series a sweep has not kept go, where it has kept those of others; returns a line for each such file."""
         remarks = []
         for number, result in enumerate(self.results):
-            failed = {case for case, _ in result.failed_cases()}
             there = set(result.cases_with_series())
-            if not result.series or len(there | failed) == result.cases:
+            if not result.series or len(there | self.failed[number]) == result.cases:
                 continue
             kept = [entry for entry in self.entries if entry.file != number or entry.case in there]
             if not any(entry.file == number for entry in kept):
@@ -89,8 +91,7 @@ class Layout:
 
     def _become_list(self, keys):
         """Give each set of swept values a label of its own, in the place of values and panels."""
-        failed = [{case for case, _ in result.failed_cases()} for result in self.results]
-        entries = [entry for entry in self.entries if entry.case not in failed[entry.file]]
+        entries = [entry for entry in self.entries if self._has_result(entry)]
         if not entries:
             raise ResultError("no case has a result")
         values = [dict(zip(keys, (entry.colour, *entry.panel))) for entry in entries]
@@ -124,38 +125,60 @@ class Layout:
             raise ResultError(f"{len(self.colours)} cases that are no grid are too many for this figure, which holds {most}: "
                               f"choose with --cases 0,3,7-9 or --cases {_example(self)}; plot_sweep.py draws summaries of all")
 
+    def some_colours(self, most):
+        """At most so many values of the colour key; all of a list."""
+        return list(self.colours) if self.is_list else self._some(self.colours, most, lambda entry: entry.colour)
+
     def shown_colours(self):
         """Values of the colour key that fit into one panel."""
-        return list(self.colours) if self.is_list else thin_out(self.colours, MOST_COLOURS)
+        return self.some_colours(MOST_COLOURS)
 
     def colours_of(self, file):
-        """Values of the colour key that a file has a colour for: those that are shown, of a list its own cases."""
-        if not self.is_list:
-            return self.shown_colours()
+        """Values of the colour key that a file has a colour for: of those that are shown its own."""
         own = {entry.colour for entry in self.entries if entry.file == file}
-        return [label for label in self.colours if label in own]
+        return [value for value in self.shown_colours() if value in own]
+
+    def drawn(self, colours, panels, series=()):
+        """Cases with a curve: those with a result that have one of these colours, one of these panels and one of these series."""
+        return [entry for entry in self.entries if entry.colour in colours and entry.panel in panels and self._has_result(entry)
+                and (not series or any(name in self.results[entry.file].series for name in series))]
+
+    def _has_result(self, entry):
+        return entry.case not in self.failed[entry.file]
+
+    def _some(self, values, most, value_of):
+        """At most so many values, evenly spread among those that some case with a result has, and of every file one at least."""
+        of_files = [{value_of(entry) for entry in self.entries if entry.file == file and self._has_result(entry)} for file in self.files]
+        there = set().union(*of_files)
+        return list(values) if len(values) <= most else \
+            thin_out([value for value in values if value in there] or values, most, of_files)
 
     def shown_panels(self, most):
         """At most so many panels: of each of their keys evenly spread values, each with all of the others, so that neighbours are the
         same in all keys but one. Numbers are left out before names."""
+        if len(self.panels) <= most:
+            return list(self.panels)
         values = self._panel_values(self.panels)
         if np.prod([len(of_key) for of_key in values]) > len(self.panels):
-            return thin_out(self.panels, most)
+            return self._some(self.panels, most, lambda entry: entry.panel)
         counts = [len(of_key) for of_key in values]
         while np.prod(counts) > most:
             longest = max(range(len(counts)), key=lambda key: (counts[key] > 2, isinstance(values[key][0], float), counts[key]))
             counts[longest] -= 1
-        values = [thin_out(of_key, count) for of_key, count in zip(values, counts)]
+        values = [self._some(of_key, count, lambda entry, key=key: entry.panel[key])
+                  for key, (of_key, count) in enumerate(zip(values, counts))]
         return [panel for panel in self.panels if all(value in of_key for value, of_key in zip(panel, values))]
 
     def _panel_values(self, panels):
         """Values of each key of the panels."""
         return [_in_order(panel[place] for panel in panels) for place in range(len(self.panel_keys))]
 
-    def shown_words(self, colours, panels):
-        """How many values of each key are shown where it is not all: of so many of the first key, and of these panels."""
-        words = [] if colours >= len(self.colours) else \
-            [f"{colours} of {len(self.colours)} values of {self.short_names.get(self.colour_key)} shown"]
+    def shown_words(self, colours, panels, series=()):
+        """What is left out where these values of the first key and these panels are shown, of these series: values of each key, files."""
+        words = [] if len(colours) >= len(self.colours) else \
+            [f"{len(colours)} of {len(self.colours)} values of {self.short_names.get(self.colour_key)} shown"]
+        there = {entry.file for entry in self.drawn(colours, panels, series)}
+        words += [f"nothing of {self.titles[file]}" for file in self.files if file not in there and len(self.files) > 1]
         if len(panels) == len(self.panels):
             return words
         parts = [(len(some), len(of_key), key) for some, of_key, key
@@ -251,11 +274,22 @@ def chosen_cases(result, selections):
     return cases
 
 
-def thin_out(values, most):
-    """At most so many of the values, evenly spread, ends included."""
+def thin_out(values, most, groups=()):
+    """At most so many of the values, evenly spread, ends included. A group none of which is among them gets one, in the place of its
+    neighbour, or beside it where that is the only one of another group."""
     if len(values) <= most:
         return list(values)
-    return [values[index] for index in np.unique(np.linspace(0, len(values) - 1, most).round().astype(int))]
+    places = set(np.linspace(0, len(values) - 1, most).round().astype(int).tolist())
+    groups = [{place for place, value in enumerate(values) if value in group} for group in groups]
+    for group in (group for group in groups if group):
+        if group & places:
+            continue
+        wanted = min(sorted(group), key=lambda place: min(abs(place - other) for other in places))
+        spare = [place for place in sorted(places)
+                 if all(other & ((places - {place}) | {wanted}) for other in groups if other & places)]
+        places -= {min(spare, key=lambda place: abs(place - wanted))} if spare else set()
+        places |= {wanted}
+    return [values[place] for place in sorted(places)]
 
 
 def wrapped(text, width):

@@ -6,7 +6,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator, NullFormatter
 import numpy as np
 
-from layout import family, line_style
 from quantities import curve_of
 
 NOSE = 180.0  # cam angle of full lift [deg]
@@ -157,30 +156,25 @@ def linear_axis(axes, low, high):
         axes.axhline(0.0, color="0.6", linewidth=0.7, zorder=0)
 
 
-def legend_handles(layout):
-    """Legend of a page, entries and columns: colours by swept value, families of colours and line styles by file."""
+def legend_handles(layout, drawn):
+    """Legend of the cases that are drawn, entries and columns: colours by swept value, families of colours and line styles by file."""
     if layout.colour_key is None or (len(layout.files) > 1 and len(layout.shown_colours()) == 1):
-        first = {number: next(entry for entry in layout.entries if entry.file == number) for number in layout.files}
-        return [Line2D([], [], label=layout.titles[number], **layout.style(entry)) for number, entry in first.items()], None
-    values = [layout.name(layout.colour_key, value) for value in layout.shown_colours()]
+        first = {entry.file: entry for entry in reversed(drawn)}
+        return [Line2D([], [], label=layout.titles[number], **layout.style(first[number])) for number in sorted(first)], None
+    first = {(entry.file, entry.colour): entry for entry in reversed(drawn)}
+    entries = {number: [Line2D([], [], label=layout.name(layout.colour_key, value), **layout.style(first[number, value]))
+                        for value in layout.colours_of(number) if (number, value) in first] for number in layout.files}
     if len(layout.files) == 1:
-        return [Line2D([], [], label=name, **layout.style(next(entry for entry in layout.entries if entry.colour == value)))
-                for value, name in zip(layout.shown_colours(), values)] if len(layout.colours) > 1 else [], None
-    entries = []
-    for place, number in enumerate(layout.files):
-        own = layout.colours_of(number)
-        entries.append([Line2D([], [], color=tone, linestyle=line_style(place), linewidth=1.4,
-                               label=layout.name(layout.colour_key, value))
-                        for tone, value in zip(family(place, len(own)), own)])
-    return file_legend(layout, entries)
+        return entries[layout.files[0]] if len(layout.colours) > 1 else [], None
+    return file_legend(layout, {number: own for number, own in entries.items() if own})
 
 
 def file_legend(layout, entries):
     """Legend of several files: a column for each, its title on top of its entries."""
-    most = max(map(len, entries))
-    handles = [handle for number, own in zip(layout.files, entries)
+    most = max(map(len, entries.values()), default=0)
+    handles = [handle for number, own in entries.items()
                for handle in (_words(layout.titles[number]), *own, *[_words("")] * (most - len(own)))]
-    return handles, len(layout.files)
+    return handles, len(entries)
 
 
 def head(figure, layout, title, legend, left_out):
@@ -194,7 +188,8 @@ def head(figure, layout, title, legend, left_out):
     words += left_out + layout.common_words() + several_cams(layout)
     width = int(11.0 * figure.bbox.width / figure.dpi)
     text = "\n".join([title[:1].upper() + title[1:], *textwrap.wrap(", ".join(words), width)]).strip()
-    legend = figure.legend(handles=handles if len(handles) > 1 else [], title=text, title_fontsize="large",
+    is_told = len(handles) + len(layout.colours) + len(layout.files) > 3
+    legend = figure.legend(handles=handles if is_told else [], title=text, title_fontsize="large",
                            loc="outside upper center", ncols=columns or columns_for(figure, handles), frameon=False)
     legend.get_title().set_multialignment("center")
 

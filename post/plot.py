@@ -80,10 +80,8 @@ def draw_measured(result, options):
 
 def remarks(results, layout):
     """Lines on what is not drawn: cases without a result, of many the first only, and without series."""
-    for result in results:
-        failed = result.failed_cases()
-        if len(failed) == result.cases:
-            raise ResultError(f"{result.path}: no case has a result: {failed[0][1]}".rstrip(": "))
+    for result, chosen in zip(results, layout.chosen):
+        failed = [(case, reason) for case, reason in result.failed_cases() if case in chosen]
         for case, reason in failed[:MOST_FAILURES]:
             yield f"{result.path}: case {case} has no result: {reason}".rstrip(": ")
         if len(failed) > MOST_FAILURES:

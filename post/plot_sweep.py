@@ -35,7 +35,7 @@ import numpy as np  # noqa: E402
 
 from command import DPI, run, save_figure  # noqa: E402
 from layout import SPEED, thin_out  # noqa: E402
-from read import ResultError, fills_grid, opened  # noqa: E402
+from read import ResultError, fills_grid, opened, reason_of, text_of, without_results  # noqa: E402
 from units import distinct_texts, fitting_unit, key_words, number, unit_words, with_unit  # noqa: E402
 
 FIGURES = ("map", "curves", "scatter", "parallel")
@@ -66,6 +66,8 @@ class Sweep:
                 missing = "/summary/status" if "sweep" in file else "/sweep"
                 raise ResultError(f"{path} is no result of a sweep: there is no {missing}")
             self.status = file["summary/status"][()]
+            if np.size(self.status) and np.all(self.status != 0):
+                raise without_results(path, reason_of(0, text_of(np.ravel(file["run/messages"][()])[0])) if "run/messages" in file else "")
             self.title = _title(file, path)
             gone = [_matching_key(path, file, name) for name in over]
             groups = _groups_over(file, gone) if gone else None
@@ -305,7 +307,7 @@ def draw_parallel(sweep):
     names = [*sweep.keys, *sweep.quantities]
     cases = np.flatnonzero(np.all([np.isfinite(sweep.column(name)[0]) for name in names], axis=0))
     if not len(cases):
-        raise ResultError("no case has a result")
+        raise ResultError("no case has a result of all these quantities")
     count = len(cases)
     cases = cases[np.unique(np.linspace(0, len(cases) - 1, MOST_LINES).round().astype(int))]
     scaled, ends = [], []

@@ -83,8 +83,14 @@ class Result:
         status = self.summary.get("status")
         if status is None or np.shape(status.values) != (self.cases,):
             return []
-        return [(int(case), self.messages[case] if case < len(self.messages) else "")
+        return [(int(case), reason_of(case, self.messages[case]) if case < len(self.messages) else "")
                 for case in np.flatnonzero(status.values)]
+
+    def need_results(self):
+        """ResultError where no case has a result."""
+        failed = self.failed_cases()
+        if failed and len(failed) == self.cases:
+            raise without_results(self.path, failed[0][1])
 
     def scalar(self, name):
         """A scalar of the summary for each case; ResultError where it is not one value for each case."""
@@ -103,6 +109,16 @@ class Result:
     def is_grid(self):
         """Is every swept value there with every other, once?"""
         return fills_grid([quantity.values.tolist() for quantity in self.sweep.values()], self.cases)
+
+
+def reason_of(case, message):
+    """Message of a failed case without the number that it begins with: what varies, and why it failed."""
+    return re.sub(rf"^case {case}(?: \((.*?)\))?: ", lambda found: f"{found[1]}: " if found[1] else "", message)
+
+
+def without_results(path, reason):
+    """The error of a file in which no case has a result, with the reason of the first."""
+    return ResultError(f"{path}: no case has a result: {reason}".rstrip(": "))
 
 
 def fills_grid(columns, count):

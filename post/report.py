@@ -25,7 +25,7 @@ from figures import draw  # noqa: E402
 from layout import Layout  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, opened, read_result, text_of  # noqa: E402
-from table import COLUMNS, column_of, plain, worst_of_lobes  # noqa: E402
+from table import column_of, plain, usual_columns, worst_of_lobes  # noqa: E402
 from units import key_words, unit_words, with_unit  # noqa: E402
 
 SHOWN = ["mean_torque", "mean_slip", "pressure", "film_ratio", "friction_sources", "drive_torque", "slip"]
@@ -43,8 +43,7 @@ def main(arguments=None):
     options = parser().parse_args(arguments)
     result = read_result(options.file)
     target = Path(options.output) if options.output else result.path.with_suffix(".html")
-    if len(result.failed_cases()) == result.cases:
-        raise ResultError(f"{result.path}: no case has a result")
+    result.need_results()
     page = page_of(result)
     write_file(target, lambda beside: Path(beside).write_text(page, encoding="utf-8"))
     print(f"report: {target}")
@@ -87,7 +86,7 @@ def table_of(result):
     columns = [[with_unit(key_words(key, quantity.units), unit_words(quantity.units)), *(plain(result.value_of(key, case)) for case in cases)]
                for key, quantity in result.sweep.items()]
     worst, line = worst_of_lobes(result)
-    columns += [column_of(worst, name, [[case] for case in cases], '', words, unit) for name, words, unit in COLUMNS if name in result.summary]
+    columns += [column_of(worst, name, [[case] for case in cases], '', words, unit) for name, words, unit in usual_columns(result)]
     text = rows_to_html([column[0] for column in columns], list(zip(*(column[1:] for column in columns))))
     text += f"<p>{line}</p>" if line else ""
     return text + (f"<p>and {result.cases - MOST_ROWS} more cases</p>" if result.cases > MOST_ROWS else "")

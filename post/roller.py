@@ -5,7 +5,7 @@ import re
 from matplotlib.figure import Figure
 import numpy as np
 
-from layout import line_style, thin_out
+from layout import line_style
 from parts import MOST_PANELS, event_window, head
 from quantities import Missing, values_of
 
@@ -38,7 +38,7 @@ def roller_figure(layout, _whole_cycle=None):
     if not entries:
         raise Missing("series line_load_1 and so on: slice_series = .true. in &roller_profile")
     most = max(1, MOST_PANELS // len(layout.files))
-    colours = thin_out(layout.colours, most)
+    colours = layout.some_colours(most)
     panels = layout.shown_panels(max(1, most // len(colours)))
     entries = [entry for entry in entries if entry.colour in colours and entry.panel in panels]
     columns = min(len(entries), 2)
@@ -62,5 +62,5 @@ def roller_figure(layout, _whole_cycle=None):
             axes.set_ylabel("load per length [N/mm]")
         if number + columns >= len(entries):
             axes.set_xlabel("place along the roller over its length")
-    head(figure, layout, "load along the roller", ([], None), layout.shown_words(len(colours), panels))
+    head(figure, layout, "load along the roller", ([], None), layout.shown_words(colours, panels))
     return figure

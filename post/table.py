@@ -4,8 +4,9 @@
 Usage: post/table.py FILE [--columns NAME,NAME,...] [--cases WHICH]... [--over KEY,... [--take WHAT]] [--rows N | --all]
 
 Columns are swept keys first, then scalars of the summary: by default mean friction torque of each source, mean slip ratio, peak
-Hertz pressure and smallest film, these three of the worst lobe shape where a case has several. Units stand in the headings and suit the values, rotational speeds are in rev/min; three
-significant figures, whole numbers in full. With `--over` the cases that differ in these keys only, as speeds of one design, make one
+pressure and smallest film, these three of the worst lobe shape where a case has several. The peak pressure is the largest along the
+roller where the deck gives its profile, else that of Hertz. Units stand in the headings and suit the values, rotational speeds are in
+rev/min; three significant figures, whole numbers in full. With `--over` the cases that differ in these keys only, as speeds of one design, make one
 row, with the largest, smallest or mean value of each column, or its range. Cases that are no grid, and chosen ones, have their number
 in the first column. Exit code 2 where the file or a name cannot be used.
 """
@@ -25,7 +26,7 @@ from layout import chosen_cases
 from read import ResultError, read_result
 from units import factor, fitting_unit, number, with_unit
 
-# Scalar of the summary, heading, unit
+# Scalar of the summary, heading, unit; of scalars with one heading the first that a file has counts
 COLUMNS = [
     ('mean_torque_contact', 'contact', 'N mm'),
     ('mean_torque_needle', 'roller bearing', 'N mm'),
@@ -41,6 +42,7 @@ COLUMNS = [
     ('mean_torque_friction', 'all friction', 'N mm'),
     ('fmep_friction', 'friction mean effective pressure', 'kPa'),
     ('mean_slip_ratio', 'mean slip', '%'),
+    ('max_axial_pressure_max', 'peak pressure', 'GPa'),
     ('max_hertz_pressure', 'peak pressure', 'GPa'),
     ('min_film_thickness_min', 'smallest film', 'um'),
 ]
@@ -51,6 +53,15 @@ SCALAR = re.compile(r'(min|max|mean)_(.+)')
 SMALLEST_FILM = re.compile(r'min_(.*_)?film_(thickness_min|thickness_central|ratio)$')
 TAKEN = {'largest': np.max, 'smallest': np.min, 'mean': np.mean}
 RANGE = 'range'
+
+
+def usual_columns(result):
+    """Rows of COLUMNS for the scalars that a result has, each heading once."""
+    rows = {}
+    for name, heading, unit in COLUMNS:
+        if name in result.summary:
+            rows.setdefault(heading, (name, heading, unit))
+    return list(rows.values())
 
 
 def plain(value) -> str:
@@ -64,10 +75,10 @@ def worst_of_lobes(result):
     The worst is the smallest of what is smallest, else the largest in magnitude.
     """
     worst, headings = {}, []
-    for name, heading, _ in COLUMNS:
+    for name, heading, _ in usual_columns(result):
         statistic, series = found.groups() if (found := SCALAR.fullmatch(name)) else ('', '')
         others = [other for other in result.summary if re.fullmatch(rf'{statistic}_lobe_\d+_{series}', other)]
-        if name not in result.summary or not others:
+        if not others:
             continue
         values = np.array([result.scalar(each).values for each in (name, *others)])
         place = np.argmin(values, axis=0) if statistic == 'min' else np.argmax(np.abs(values), axis=0)
@@ -126,9 +137,11 @@ def range_of(heading, quantity, groups, unit) -> list[str]:
 
 def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -> str:
     """The table as Markdown, of the first so many rows, and lines on what is not in it."""
-    usual = {name: (name, heading, unit) for name, heading, unit in COLUMNS}
+    if columns is None:
+        result.need_results()
+    usual = {row[0]: row for row in usual_columns(result)}
     result, line = worst_of_lobes(result) if columns is None else (result, '')
-    chosen = [c for c in COLUMNS if c[0] in result.summary] if columns is None else \
+    chosen = list(usual.values()) if columns is None else \
         [usual.get(name, (name, None, None)) if take == RANGE else (name, None, None) for name in columns]
     if not chosen:
         raise ResultError(f'{result.path}: none of the usual scalars in the summary; choose with --columns')

@@ -5,13 +5,17 @@ from matplotlib.figure import Figure
 import numpy as np
 import pytest
 
+from command import run
 import figures
 from figures import FIGURES, draw
-from layout import MOST_LISTED, Layout, wrapped
+from layout import MOST_LISTED, Layout, thin_out, wrapped
 from parts import event_window
 from plot import main
+import plot_sweep
 from quantities import CURVES, Missing
 from read import ResultError, read_result
+import report
+import table
 from test_post import OIL, SPEED, write_result
 
 ZIP = [(300.0, 25.0), (600.0, 60.0), (900.0, 95.0)]
@@ -86,16 +90,17 @@ def test_figures_of_several_keys_are_thinned_out_key_by_key():
     layout.colour_key, layout.colours, layout.panel_keys = SPEED, [300.0, 600.0], [OIL, THIRD]
     layout.short_names = {SPEED: "speed", OIL: "oil temperature", THIRD: "film law"}
     layout.panels = [(oil, law) for oil in (25.0, 40.0, 60.0, 80.0, 95.0) for law in ("moes", "pan_hamrock")]
+    layout.entries, layout.files = [], []
     assert layout.shown_panels(4) == [(25.0, "moes"), (25.0, "pan_hamrock"), (95.0, "moes"), (95.0, "pan_hamrock")]
     assert len(layout.shown_panels(9)) == 8 and layout.shown_panels(10) == layout.panels
     # with one panel left of two laws, the title says so, and it counts values of each key
     assert layout.shown_panels(3) == [(25.0, "moes"), (25.0, "pan_hamrock")]
-    assert layout.shown_words(1, layout.shown_panels(4)) == ["1 of 2 values of speed shown", "2 of 5 values of oil temperature shown"]
-    assert layout.shown_words(2, layout.panels) == []
+    assert layout.shown_words([300.0], layout.shown_panels(4)) == ["1 of 2 values of speed shown", "2 of 5 values of oil temperature shown"]
+    assert layout.shown_words([300.0, 600.0], layout.panels) == []
     # panels that are not each value with each other are spread as they come
     layout.panels = layout.panels[::3]
     assert layout.shown_panels(2) == [layout.panels[0], layout.panels[-1]]
-    assert layout.shown_words(2, layout.panels[:2]) == ["2 of 4 pairs of oil temperature and film law shown"]
+    assert layout.shown_words([300.0, 600.0], layout.panels[:2]) == ["2 of 4 pairs of oil temperature and film law shown"]
 
 
 def test_an_overview_says_what_curves_and_bars_leave_out(tmp_path):
@@ -215,8 +220,20 @@ def test_failed_cases_of_a_list_have_no_label_and_those_of_a_grid_no_curve(tmp_p
 def test_no_case_with_a_result_is_an_error(zipped, capsys):
     with h5py.File(zipped, "a") as file:
         file["summary/status"] = np.array([3, 3, 3])
-    assert main([str(zipped)]) == 2
-    assert "no case has a result" in capsys.readouterr().err
+        file["run/messages"] = ["nothing converges"] * 3
+    for script, arguments in ((main, []), (report.main, []), (table.main, []), (plot_sweep.main, [])):
+        assert run(lambda script=script, arguments=arguments: script([str(zipped), *arguments]), "script.py") == 2
+        assert "no case has a result: nothing converges\n" in capsys.readouterr().err
+
+
+def test_of_chosen_cases_the_failed_ones_are_told(tmp_path, capsys):
+    path = write_result(tmp_path / "nine.h5", step=15.0)
+    with h5py.File(path, "a") as file:
+        file["summary/status"] = [0, 3, 0, 0, 0, 0, 0, 0, 3]
+        file["run/messages"] = ["", "case 1 (a.x=2, a.y=3): no balance", *[""] * 7]
+    assert main([str(path), "--cases", "0-3", "--figure", "load"]) == 0
+    words = capsys.readouterr().out
+    assert "nine.h5: case 1 has no result: a.x=2, a.y=3: no balance\n" in words and "case 8" not in words
 
 
 def test_a_sweep_without_series_has_its_means_drawn(tmp_path, capsys):
@@ -286,6 +303,51 @@ def test_the_legend_of_two_files_names_every_curve(tmp_path):
     figure = draw("film", Layout(two_files(tmp_path)))
     values = ["300 rev/min", "600 rev/min", "900 rev/min"]
     assert legend(figure) == ["a", *values, "b", *values]
+
+
+@pytest.mark.parametrize("name", ["slip", "drive_torque", "overview", "dampers"])
+def test_a_file_of_one_case_is_drawn_beside_a_long_sweep(tmp_path, name):
+    """One of the values that even spacing would leave out is the only one of the second file."""
+    speeds, oils = tuple(np.linspace(300.0, 2200.0, 20)), tuple(np.linspace(20.0, 105.0, 18))
+    results = [read_result(write_result(tmp_path / f"{title}.h5", title=title, speeds=one, oils=other, step=15.0))
+               for title, one, other in (("long", speeds, oils), ("single", speeds[5:6], oils[4:5]))]
+    layout = Layout(results)
+    figure = draw(name, layout)
+    assert "nothing of" not in title(figure) and "values of oil temperature shown" in title(figure)
+    assert (speeds[5], (oils[4],)) in {(entry.colour, entry.panel) for entry in layout.entries_of((oils[4],), layout.shown_colours())}
+    assert (oils[4],) in layout.shown_panels(3)
+    if name == "slip":
+        assert legend(figure)[-len(layout.shown_colours()) - 1:][:2] == ["single", "800 rev/min"]
+        lines = [line for axes in figure.axes for line in curves(axes)]
+        assert len(lines) == 9 * 7 + 1 and len(layout.shown_colours()) == 7
+
+
+def test_what_the_second_file_does_not_have_is_said_and_has_no_legend(tmp_path):
+    results = [read_result(write_result(tmp_path / f"{title}.h5", title=title, step=15.0, without=without))
+               for title, without in (("a", ()), ("b", ("cam_wear_depth",)))]
+    figure = draw("wear_depth", Layout(results))
+    assert legend(figure) == ["a", "300 rev/min", "600 rev/min", "900 rev/min"] and "nothing of b" in title(figure)
+
+
+def test_values_with_a_result_are_the_ones_that_are_shown(tmp_path):
+    """Of four speeds three fit; the last two, of which even spacing takes one, have no result."""
+    path = write_result(tmp_path / "four.h5", speeds=(300.0, 2900.0, 3000.0, 4000.0), oils=(60.0,), swept=(SPEED,), step=15.0)
+    with h5py.File(path, "a") as file:
+        file["summary/status"] = [0, 0, 3, 3]
+        for data in file["series"].values():
+            if data.name != "/series/cam_angle":
+                blank(data, [2, 3])
+    layout = Layout([read_result(path)])
+    figure = draw("drive_torque", layout)
+    assert [axes.get_title() for axes in figure.axes if curves(axes)] == ["300 rev/min", "2900 rev/min"]
+    assert not [text for axes in figure.axes for text in axes.texts] and "2 of 4 values of speed shown" in title(figure)
+    assert legend(draw("slip", layout)) == ["300 rev/min", "2900 rev/min"]
+
+
+@pytest.mark.parametrize("groups, expected", [((), [0, 3, 6, 9]), (({4},), [0, 4, 6, 9]), (({4}, {3}), [0, 3, 4, 9]),
+                                              (({1}, {2}, {4}, {5}, {7}), [1, 2, 4, 5, 7])])
+def test_thinned_values_have_one_of_every_group(groups, expected):
+    assert thin_out(list(range(10)), 4, groups) == expected
 
 
 def test_torques_of_a_shaft_whose_other_cams_are_at_work_are_shown_for_the_whole_turn(tmp_path):

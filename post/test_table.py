@@ -1,10 +1,13 @@
 """Tables of results and of sweeps."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
 
 from read import read_result
+import report
 from table import COLUMNS, MOST_ROWS, main, table_of
 from test_cases import ZIP, without_series
 from test_post import SPEED, write_result
@@ -176,3 +179,16 @@ def test_several_lobe_shapes_show_the_worst(grid, capsys):
 
 def test_one_lobe_shape_says_nothing_of_several(grid):
     assert "lobe shapes" not in table_of(read_result(grid))
+
+
+def test_peak_pressure_is_that_along_the_roller_where_there_is_one(grid):
+    """As in the program's own table."""
+    assert "peak pressure [GPa]" in rows(table_of(read_result(grid)))[0]
+    with h5py.File(grid, "a") as file:
+        file["summary/max_axial_pressure_max"] = np.full(60, 1.25e9)
+        file["summary/max_axial_pressure_max"].attrs["units"] = "Pa"
+    result = read_result(grid)
+    head, first, *_ = rows(table_of(result))
+    assert head.count("peak pressure [GPa]") == 1 and first[head.index("peak pressure [GPa]")] == "1.25"
+    shown = re.search(r"<table>.*?</table>", report.table_of(result), re.S)[0]
+    assert shown.count("peak pressure") == 1 and ">1.25<" in shown and "0.975" not in shown
