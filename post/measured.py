@@ -1,7 +1,7 @@
 """Measured points beside computed results: read from a table, compared, drawn.
 
 A table has one heading with units in brackets, as `cam angle [deg], torque [N m]`, `crank angle [deg], torque [N m]` or
-`speed [rpm], temperature [degC], mean torque [N mm]`. Angles are compared with the drive torque over one turn of the camshaft, or
+`speed [rpm], temperature [degC], mean torque [N mm]`. Angles, in degrees or radians, are compared with the drive torque over one turn of the camshaft, or
 with the friction torque where the column is called so; operating points with the mean friction torque of the case that has the same
 speed and temperature, which is the mean of the drive torque as well. Differences are measured less computed.
 """
@@ -17,6 +17,7 @@ from read import ResultError
 from units import factor, number
 
 ANGLES = ("cam angle", "crank angle")
+DEGREES = {"deg": 1.0, "degree": 1.0, "degrees": 1.0, "°": 1.0, "rad": 180.0 / np.pi}  # in a unit of an angle
 POINT = {"speed": ("rpm", "rev/min", "1/min"), "temperature": ("degC", "°C")}  # with the units that they may have
 KEYS = {"speed": "operating_point.speed_rpm", "temperature": "operating_point.oil_temperature_degC"}
 SAME = 1e-6  # relative difference of two operating points that are one
@@ -25,7 +26,7 @@ HEADING = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")
 
 @dataclass
 class Table:
-    """Columns of measured values by name, with their units."""
+    """Columns of measured values by name, angles in degrees, with the units of their headings."""
 
     path: Path
     columns: dict
@@ -50,38 +51,52 @@ class Comparison:
     def words(self):
         """Bias, root mean square and the worst point in one line."""
         worst = int(np.argmax(np.abs(self.differences)))
-        line = (f"{len(self.measured)} points, bias {number(self.differences.mean(), 3)} {self.unit}, rms "
+        line = (f"{points(len(self.measured))}, bias {number(self.differences.mean(), 3)} {self.unit}, rms "
                 f"{number(np.sqrt((self.differences ** 2).mean()), 3)} {self.unit}, worst "
                 f"{number(self.differences[worst], 3)} {self.unit} at {self.places[worst]}")
-        return line + (f"; {self.left_out} points have no case" if self.left_out else "")
+        return line + (f"; {points(self.left_out)} {'has' if self.left_out == 1 else 'have'} no case" if self.left_out else "")
+
+
+def points(count):
+    """A number of points in words."""
+    return f"{count} point" + "s" * (count != 1)
 
 
 def read_table(path):
     """Read a table; raise ResultError with one line where it is none."""
     path = Path(path)
     try:
-        lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line.strip() and not line.lstrip().startswith("#")]
+        lines = [(place, line) for place, line in enumerate(path.read_text(encoding="utf-8-sig").splitlines(), 1)
+                 if line.strip() and not line.lstrip().startswith("#")]
     except (OSError, UnicodeDecodeError) as error:
         raise ResultError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or 'no text in UTF-8'}") from None
     if len(lines) < 2:
         raise ResultError(f"{path}: a table has a heading and rows")
-    parts = ";" if ";" in lines[0] else ","
+    heading = lines[0][1]
+    parts = ";" if ";" in heading else ","
     names, units = [], {}
-    for cell in lines[0].split(parts):
+    for cell in heading.split(parts):
         found = HEADING.match(cell.strip('" '))
         if not found:
             raise ResultError(f"{path}: a heading is a name with its unit, as 'torque [N m]', not '{cell.strip()}'")
         names.append(found[1].lower())
         units[names[-1]] = found[2]
     rows = []
-    for place, line in enumerate(lines[1:], 2):
+    for place, line in lines[1:]:
         try:
             rows.append([float(cell) for cell in line.split(parts)])
         except ValueError:
-            raise ResultError(f"{path}: row {place} is not of numbers: {line.strip()}") from None
+            raise ResultError(f"{path}: line {place} is not of numbers: {line.strip()}") from None
         if len(rows[-1]) != len(names):
-            raise ResultError(f"{path}: row {place} has {len(rows[-1])} of {len(names)} columns")
-    return Table(path, dict(zip(names, np.array(rows).T)), units)
+            raise ResultError(f"{path}: line {place} has {len(rows[-1])} of {len(names)} columns")
+        if not np.isfinite(rows[-1]).all():
+            raise ResultError(f"{path}: line {place}: only finite numbers are allowed, not {line.strip()}; leave out rows without a value")
+    columns = dict(zip(names, np.array(rows).T))
+    for name in set(ANGLES) & set(columns):
+        if units[name] not in DEGREES:
+            raise ResultError(f"{path}: the unit of '{name}' has to be {', '.join(list(DEGREES)[:-1])} or rad, not {units[name]}")
+        columns[name] = DEGREES[units[name]] * columns[name]
+    return Table(path, columns, units)
 
 
 def compare(table, result, case):

@@ -43,6 +43,17 @@ def test_between_the_points_of_the_series_the_line_counts(nine, tmp_path):
     assert compare(read_table(table), result, 0).differences == pytest.approx([0.0], abs=1e-9)
 
 
+def test_angles_in_radians_and_a_mark_of_byte_order_change_nothing(nine, tmp_path, capsys):
+    result = read_result(nine)
+    table = write_table(tmp_path / "rig.csv", "cam angle [rad], torque [N m]", [(np.pi, 1.0)])
+    table.write_bytes(b"\xef\xbb\xbf" + table.read_bytes().partition(b"\n")[2])
+    found = compare(read_table(table), result, 0)
+    assert found.computed == pytest.approx(result.series["torque_drive"].values[0][result.cam_angle == 180.0])
+    assert main([str(nine), "--measured", str(table)]) == 0
+    words = capsys.readouterr().out
+    assert ": 1 point, bias" in words and "at cam angle 180.0 deg" in words
+
+
 def test_crank_angle_goes_by_the_engine(nine, tmp_path):
     table = write_table(tmp_path / "rig.csv", "crank angle [deg], torque [N m]", [(470.0, 0.0), (110.0, 0.0)])
     with pytest.raises(ResultError, match="crank angles need the group &engine"):
@@ -66,13 +77,16 @@ def test_operating_points_find_their_cases(nine, tmp_path, capsys):
     assert main([str(nine), "--measured", str(table)]) == 0
     words = capsys.readouterr().out
     assert re.search(r"2 points, bias 2(\.00)? N mm", words)
-    assert re.search(r"worst 5(\.00)? N mm at 300 rev/min, 25 degC; 1 points have no case", words)
+    assert re.search(r"worst 5(\.00)? N mm at 300 rev/min, 25 degC; 1 point has no case", words)
 
 
 @pytest.mark.parametrize(("text", "words"), [
     ("cam angle, torque\n1, 2\n", "a heading is a name with its unit"),
-    ("cam angle [deg], torque [N m]\n1, x\n", "row 2 is not of numbers"),
-    ("cam angle [deg], torque [N m]\n1\n", "row 2 has 1 of 2 columns"),
+    ("cam angle [deg], torque [N m]\n1, x\n", "line 2 is not of numbers"),
+    ("# a rig\n\ncam angle [deg], torque [N m]\n# first\n1, 2\n3, x\n", "line 6 is not of numbers"),
+    ("cam angle [deg], torque [N m]\n1, 2\n3, nan\n", "rig.csv: line 3: only finite numbers are allowed, not 3, nan"),
+    ("cam angle [turns], torque [N m]\n1, 2\n", "the unit of 'cam angle' has to be deg, degree, degrees, ° or rad, not turns"),
+    ("cam angle [deg], torque [N m]\n1\n", "line 2 has 1 of 2 columns"),
     ("cam angle [deg], torque [kg]\n1, 2\n", "has to be N m or N mm"),
     ("lift [mm], torque [N m]\n1, 2\n", "the columns have to be an angle"),
     ("cam angle [deg], torque [N m]\n", "a heading and rows"),
