@@ -11,7 +11,7 @@ import numpy as np
 
 from layout import MOST_COLOURS, family, spread_colours, thin_out, wrapped
 from parts import MOST_PANELS, columns_for
-from quantities import SOURCES, mean_of
+from quantities import SOURCES, mean_of, source_words
 from units import number
 
 MOST_BARS = 40
@@ -98,7 +98,8 @@ def _torque(axes, layout, file, labelled):
 
 
 def _source_handles(layout):
-    return [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=label) for _, label, tone, hatch in _sources(layout)]
+    return [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=source_words(layout, label))
+            for _, label, tone, hatch in _sources(layout)]
 
 
 def _sources(layout):

@@ -61,11 +61,16 @@ def shown(values: numpy.ndarray) -> numpy.ndarray:
     return numpy.where(sizes > 0, sizes, numpy.nan)
 
 
+def nearest(angles: numpy.ndarray, angle: float) -> int:
+    """Place of the angle next to one; 360 degrees are 0 [deg]."""
+    return int(numpy.argmin(numpy.abs((angles - angle + 180.0) % 360.0 - 180.0)))
+
+
 def profiles(pressure, film, data: dict, angles: list[float]) -> None:
     """Pressure and film across the contact at some angles."""
     top = 0.0
     for number, angle in enumerate(angles):
-        i = int(numpy.argmin(numpy.abs(data["angle"] - angle)))
+        i = nearest(data["angle"], angle)
         label = f"{data['angle'][i]:.0f}{DEGREE}" + ("" if data["film_min"][i] > 0 else ", no contact")
         place = 1e6 * data["x"] * data["half_width"][i]
         pressure.plot(place, data["pressure"][i] / 1e6, color=f"C{number}", label=label)
@@ -82,7 +87,7 @@ def profiles(pressure, film, data: dict, angles: list[float]) -> None:
 def temperatures(across, turning, data: dict, angles: list[float]) -> None:
     """Rise of the film's temperature across the contact at some angles, and its largest over the cycle."""
     for number, angle in enumerate(angles):
-        i = int(numpy.argmin(numpy.abs(data["angle"] - angle)))
+        i = nearest(data["angle"], angle)
         across.plot(1e6 * data["x"] * data["half_width"][i], data["film_rise"][i], color=f"C{number}")
     reach = REACH * 1e6 * numpy.nanmax(data["half_width"])
     across.set(ylabel="rise of the film's temperature [K]", xlim=(-reach, reach),
@@ -172,6 +177,17 @@ def read_run(path: str, case: int) -> dict:
         return {"angle": file["series/cam_angle"][:], "sliding_speed": file["series/sliding_speed"][case]}
 
 
+def angle_of_a_turn(text: str) -> float:
+    """Type of an option that takes a cam angle."""
+    try:
+        angle = float(text)
+    except ValueError:
+        angle = numpy.nan
+    if not 0.0 <= angle <= 360.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not an angle of one turn, 0 to 360 degrees")
+    return angle
+
+
 def main(arguments=None) -> int:
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog="ehl.py", description="draw solved contacts over the cycle")
@@ -180,7 +196,8 @@ def main(arguments=None) -> int:
     parser.add_argument("--output", required=True)
     parser.add_argument("--map", help="a second figure: pressure and film over cam angle and place")
     parser.add_argument("--case", type=int, default=0)
-    parser.add_argument("--angles", type=float, nargs="+", default=[90.0, 125.0, 150.0, 180.0, 205.0])
+    parser.add_argument("--angles", type=angle_of_a_turn, nargs="+", default=[90.0, 125.0, 150.0, 180.0, 205.0],
+                        help="cam angles of the profiles, 0 to 360 degrees")
     options = parser.parse_args(arguments)
     try:
         lobes = read(options.file, options.case)

@@ -14,7 +14,8 @@ from dampers import dampers_figure
 from layout import line_style, wrapped
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
-from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, values_of
+from quantities import (CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, source_words,
+                        values_of)
 from roller import roller_figure
 from running_in import running_in_figure
 from turns import turns_figure
@@ -112,7 +113,7 @@ def _torque_legend(layout, parts, drawn):
     """The parts, in the colours of each file that is drawn and has them."""
     there = {number: layout.results[number].series for number in layout.files if number in {entry.file for entry in drawn}}
     entries = {number: [Line2D([], [], color=tones[place % len(tones)], linestyle=dash if len(layout.files) == 1 else line_style(place),
-                               linewidth=width, label=label) for name, label, tones, dash, width in parts if name in there[number]]
+                               linewidth=width, label=source_words(layout, label)) for name, label, tones, dash, width in parts if name in there[number]]
                for place, number in enumerate(layout.files) if number in there}
     return (next(iter(entries.values()), []), None) if len(layout.files) == 1 else file_legend(layout, entries)
 

@@ -65,12 +65,13 @@ TRAIN = {
     "plunger": Curve("plunger's travel", "plunger_travel", "um"),
     "chamber_pressure": Curve("adjuster's pressure", "chamber_pressure", "MPa"),
 }
+ADJUSTER = " and lash adjuster"  # words that are said of trains with one
 # Summary name, words, colour, hatch
 SOURCES = [("mean_torque_contact", "cam/roller contact", "#08306b", ""),
            ("mean_torque_bearings", "cam bearings", "#d55e00", "///"),
-           ("mean_torque_needle", "needle bearing", "#7cc0ea", ""),
+           ("mean_torque_needle", "roller bearing", "#7cc0ea", ""),
            ("mean_torque_guide", "valve guide", "#f0e442", "xxx"),
-           ("mean_torque_damping", "dampers and lash adjuster", "#8a5a9e", "..."),
+           ("mean_torque_damping", "dampers" + ADJUSTER, "#8a5a9e", "..."),
            ("mean_torque_tip", "valve tip", "#7f3b08", ""),
            ("mean_torque_seal", "stem seal", "#f4b6c2", "///"),
            ("mean_torque_guide_side", "ends of the guide", "#9a8700", "..."),
@@ -167,6 +168,13 @@ def _factor(quantity, name, unit):
     if found is None:
         raise ResultError(f"{name} has the unit '{quantity.units}', which cannot be shown in {unit}")
     return found
+
+
+def source_words(layout, words):
+    """Words of a source of friction, without the lash adjuster where no train has one."""
+    has_adjuster = any(key.startswith("lash_adjuster.") for number in layout.files
+                       for key in (*layout.results[number].deck, *layout.results[number].sweep))
+    return words if has_adjuster else words.removesuffix(ADJUSTER)
 
 
 def has_series(layout, name):

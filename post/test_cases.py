@@ -428,6 +428,20 @@ def test_every_kind_of_figure_is_drawn_of_one_case(tmp_path):
     assert figures.draw("drive_torque", Layout([result])).axes[0].get_ylabel() == "torque [N m]"
 
 
+def test_sources_have_the_names_of_the_table_and_adjusters_only_where_there_are_some(tmp_path):
+    path = write_result(tmp_path / "nine.h5", step=15.0)
+    with h5py.File(path, "a") as file:
+        for name in ("series/torque_damping", "summary/mean_torque_damping"):
+            file[name] = file[name.replace("damping", "needle")][()]
+            file[name].attrs["units"] = "N m"
+    for words in ("dampers", "dampers and lash adjuster"):
+        for name in ("mean_torque", "friction_sources"):
+            names = legend(draw(name, Layout([read_result(path)])))
+            assert words in names and "roller bearing" in names and "needle bearing" not in names
+        with h5py.File(path, "a") as file:
+            file[f"deck/values/lash_adjuster.key_{len(words)}"] = 10.0
+
+
 def test_swept_words_are_labels(tmp_path):
     path = write_result(tmp_path / "words.h5", points=ZIP, step=15.0)
     with h5py.File(path, "a") as file:

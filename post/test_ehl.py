@@ -54,3 +54,16 @@ def test_a_case_without_contacts_or_another_file_is_refused(path, tmp_path, caps
         file["x"] = 1
     assert ehl.main([str(tmp_path / "other.h5"), "--output", str(tmp_path / "a.png")]) == 2
     assert not list(tmp_path.glob("*.png"))
+
+
+@pytest.mark.parametrize("angle", ["400", "-1", "nan", "x"])
+def test_an_angle_outside_of_the_turn_is_refused(path, tmp_path, capsys, angle):
+    with pytest.raises(SystemExit) as end:
+        ehl.main([str(path), "--output", str(tmp_path / "a.png"), "--angles", "0", angle])
+    assert end.value.code == 2 and f"'{angle}' is not an angle of one turn, 0 to 360 degrees" in capsys.readouterr().err
+    assert not (tmp_path / "a.png").exists()
+
+
+def test_the_end_of_the_turn_is_its_beginning():
+    angles = np.arange(0.0, 360.0, 5.0)
+    assert [ehl.nearest(angles, angle) for angle in (0.0, 4.0, 358.0, 360.0)] == [0, 1, 0, 0]
