@@ -6,8 +6,6 @@ from pathlib import Path
 import sys
 import tempfile
 
-import h5py
-
 from read import ResultError
 
 CLOSED_PIPE = 141  # exit code of a program that a closed pipe ends: 128 and the number of the signal
@@ -51,25 +49,41 @@ def save_figure(figure, target, **options):
     write_file(target, lambda beside: figure.savefig(beside, format=kind, **options))
 
 
+def write_text(target, text):
+    """Write a page or a table, whole or not at all."""
+    write_file(target, lambda beside: Path(beside).write_text(text, encoding="utf-8"))
+
+
 def write_file(target, write):
-    """Let `write` write a file under another name beside the target, then give it its name."""
-    target, beside = Path(target), None
+    """Let `write` write a file under another name beside the target, then give it its name; where that is a link, to what it names.
+
+    A file is replaced only where it is empty or begins as the new one does: a deck, a result or a table that is read is never lost.
+    """
+    place, beside = Path(os.path.realpath(target)), None
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        if target.exists() and not target.is_file():
+        place.parent.mkdir(parents=True, exist_ok=True)
+        if place.exists() and not place.is_file():
             raise ResultError(f"{target}: cannot be written: not a regular file")
-        if target.is_file() and h5py.is_hdf5(target):
-            raise ResultError(f"{target}: not written: it is an HDF5 file")
-        handle, beside = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+        handle, beside = tempfile.mkstemp(dir=place.parent, prefix=f".{place.name}.")
         os.close(handle)
         write(beside)
+        if place.exists() and _beginning(place) not in (b"", _beginning(beside)):
+            raise ResultError(f"{target}: not written: the file there is of another kind; give another name, or remove it first")
         os.chmod(beside, 0o666 & ~_mask())
-        os.replace(beside, target)
+        os.replace(beside, place)
     except OSError as error:
         raise ResultError(f"{target}: cannot be written: {error.strerror or one_line(error)}") from None
     finally:
         if beside and os.path.exists(beside):
             os.unlink(beside)
+
+
+def _beginning(path):
+    """What tells kinds of files apart: the first line of a text, the first four bytes of anything else."""
+    with open(path, "rb") as file:
+        start = file.read(200)
+    line = start.partition(b"\n")[0]
+    return line if line and all(32 <= byte < 127 for byte in line) else start[:4]
 
 
 def _mask():

@@ -20,7 +20,7 @@ matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "camroller",
                             "hatch.linewidth": 0.6, "hatch.color": "white"})
 
-from command import run, write_file  # noqa: E402
+from command import run, write_text  # noqa: E402
 from figures import draw  # noqa: E402
 from layout import Layout  # noqa: E402
 from quantities import Missing  # noqa: E402
@@ -45,7 +45,7 @@ def main(arguments=None):
     target = Path(options.output) if options.output else result.path.with_suffix(".html")
     result.need_results()
     page = page_of(result)
-    write_file(target, lambda beside: Path(beside).write_text(page, encoding="utf-8"))
+    write_text(target, page)
     print(f"report: {target}")
     return 0
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import h5py
+from matplotlib.figure import Figure
 import numpy as np
 import pytest
 
@@ -16,6 +17,7 @@ import plot
 import plot_audit
 import plot_study
 import plot_sweep
+import report
 import table
 import test_ehl
 import test_plot_audit
@@ -25,6 +27,7 @@ from test_cases import without_series
 from test_post import write_result
 
 HERE = pathlib.Path(__file__).resolve().parent
+PNG = b"\x89PNG\r\n\x1a\n"
 SCRIPTS = {"plot": (plot, ["--figure", "load"]), "table": (table, []),
            "plot_sweep": (plot_sweep, ["--quantity", "mean_torque_drive"]),
            "plot_study": (plot_study, []), "plot_audit": (plot_audit, []), "ehl": (ehl, ["--output", "OUT/x.png"]),
@@ -151,19 +154,59 @@ def test_a_figure_is_written_whole_or_not_at_all(tmp_path):
             pathlib.Path(target).write_bytes(b"half")
             raise OSError(28, "No space left on device")
 
-    (tmp_path / "x.png").write_text("earlier")
+    (tmp_path / "x.png").write_bytes(PNG)
     with pytest.raises(command.ResultError, match="cannot be written: No space left on device"):
         command.save_figure(Breaks(), tmp_path / "x.png")
-    assert (tmp_path / "x.png").read_text() == "earlier" and [path.name for path in tmp_path.iterdir()] == ["x.png"]
+    assert (tmp_path / "x.png").read_bytes() == PNG and [path.name for path in tmp_path.iterdir()] == ["x.png"]
 
 
 def test_a_result_is_not_overwritten_by_a_figure_or_a_page(good, capsys):
     before = good["ehl"].read_bytes()
     assert ehl.main([str(good["ehl"]), "--output", str(good["ehl"])]) == 2
     assert "no kind of figure" in capsys.readouterr().err
-    with pytest.raises(command.ResultError, match="HDF5"):
-        command.write_file(good["ehl"], lambda beside: pathlib.Path(beside).write_text("x"))
+    with pytest.raises(command.ResultError, match="of another kind"):
+        command.write_text(good["ehl"], "x")
     assert good["ehl"].read_bytes() == before
+
+
+@pytest.mark.parametrize("kind", ["png", "pdf", "svg"])
+@pytest.mark.parametrize("there", [b"&case\n  title = 'mine'\n/\n", b"#!/usr/bin/env python3\n", b"# Notes\n", b"GIF89a"])
+def test_only_a_file_of_its_kind_is_replaced(tmp_path, there, kind):
+    """A deck, a source, notes or another picture at the name of a figure stay; an earlier figure and an empty file do not."""
+    figure, target = Figure(), tmp_path / f"x.{kind}"
+    target.write_bytes(there)
+    with pytest.raises(command.ResultError, match="not written: the file there is of another kind"):
+        command.save_figure(figure, target)
+    assert target.read_bytes() == there and list(tmp_path.iterdir()) == [target]
+    target.write_bytes(b"")
+    for _ in range(2):
+        command.save_figure(figure, target)
+    assert target.stat().st_size > 500 and list(tmp_path.iterdir()) == [target]
+
+
+def test_every_script_refuses_a_target_of_another_kind(good, tmp_path, capsys):
+    targets = {"ehl": "x", "ehl_map": "x", "plot": "grid_load", "plot_sweep": "grid_curves", "plot_audit": "made_audit",
+               "plot_study": "made_study_work_precision"}
+    places = {tmp_path / f"out/{made}.png" for made in targets.values()}
+    (tmp_path / "out").mkdir()
+    for place in places:
+        place.write_text("&case /\n")
+    for name in targets:
+        code, said = ended(name, good[name], tmp_path / "out", capsys)
+        assert code == 2 and said.count("\n") == 1 and "of another kind" in said, name
+    assert set((tmp_path / "out").iterdir()) == places and {place.read_text() for place in places} == {"&case /\n"}
+
+
+def test_pages_replace_their_own_kind_alone_and_links_stay(good, tmp_path):
+    page, link = tmp_path / "page.html", tmp_path / "link.html"
+    link.symlink_to(page)
+    for _ in range(2):
+        assert report.main([str(good["plot"]), "-o", str(link)]) == 0
+    assert link.is_symlink() and page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    page.write_text("# Notes\n")
+    with pytest.raises(command.ResultError, match="link.html: not written"):
+        report.main([str(good["plot"]), "-o", str(link)])
+    assert page.read_text() == "# Notes\n"
 
 
 def test_a_target_that_is_no_regular_file_is_refused(tmp_path):

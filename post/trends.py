@@ -25,7 +25,7 @@ from matplotlib.ticker import FixedLocator, NullLocator, ScalarFormatter  # noqa
 import numpy as np  # noqa: E402
 from scipy.stats import qmc, spearmanr  # noqa: E402
 
-from command import run, save_figure  # noqa: E402
+from command import run, save_figure, write_text  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 
 BASE = Path(__file__).resolve().parent.parent / "decks/sliding_joints.nml"
@@ -70,21 +70,20 @@ def samples():
 
 def write_cases(folder):
     """The deck of all cases and its table, samples times operating points, the temperature fastest."""
-    folder.mkdir(parents=True, exist_ok=True)
     base = BASE.read_text(encoding="utf-8")
     deck = base[base.index("&case"):base.index("&sweep")]
     deck = deck.replace("'dowson_higginson'", "'moes'").replace("'long_full_sommerfeld'", "'finite'")
     deck += "&bearing_asperity\n   roughness_um = 0.5\n   modulus_GPa = 110\n   boundary_coefficient = 0.1\n/\n\n"
     deck += "&needle_drag\n   pitch_diameter_mm = 10.22\n/\n\n&output\n   series = .false.\n/\n\n"
     deck += "&sweep\n   kind = 'table'\n   table = 'cases.txt'\n/\n"
-    (folder / "trends.nml").write_text("! Made by post/trends.py from decks/sliding_joints.nml.\n\n" + deck, encoding="utf-8")
+    write_text(folder / "trends.nml", "! Made by post/trends.py from decks/sliding_joints.nml.\n\n" + deck)
     keys = ["operating_point.speed_rpm", "operating_point.oil_temperature_degC"] + [key for key, *_ in RANGES]
     rows = [" ".join(keys)]
     for sample in samples():
         for speed in SPEEDS:
             for temperature in TEMPERATURES:
                 rows.append(" ".join(f"{value:.9g}" for value in (speed, temperature, *sample)))
-    (folder / "cases.txt").write_text("\n".join(rows) + "\n", encoding="utf-8")
+    write_text(folder / "cases.txt", "\n".join(rows) + "\n")
 
 
 def as_points(values):
@@ -253,7 +252,7 @@ def main(arguments=None):
         parser.error("give a result file, or --cases")
     data = read_data(options.file)
     if options.page:
-        options.page.write_text(page(data), encoding="utf-8")
+        write_text(options.page, page(data))
     if options.figure:
         save_figure(draw(data), options.figure, dpi=110)
 

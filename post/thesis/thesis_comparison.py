@@ -14,7 +14,7 @@ import sys
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # the scripts of all figures and tables
 
-from command import run, write_file
+from command import run, write_text
 from comparison_claims import STATEMENTS, verdict
 from comparison_reasons import reason
 from comparison_runs import command_lines, read_runs
@@ -54,7 +54,7 @@ def main(arguments=None):
         parser.error("a folder and --page, or --runs")
     try:
         text = "\n".join(page(read_runs(options.folder)))
-        write_file(options.page, lambda beside: Path(beside).write_text(text, encoding="utf-8"))
+        write_text(options.page, text)
     except ResultError as error:
         print(f"thesis_comparison.py: {error}", file=sys.stderr)
         return 2
