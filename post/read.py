@@ -216,7 +216,7 @@ def _read(path, file, with_series):
     messages = [text_of(message) for message in file["run/messages"][()]] if "run/messages" in file else []
     return Result(path, angle, series, _without_none(_datasets(file, "summary")),
                   _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases, measured, _datasets(file, "running_in"),
-                  _without_none(_datasets(file, "turns")))
+                  _without_none({name: quantity for name, quantity in _datasets(file, "turns").items() if name != "turn"}))
 
 
 def _read_series(path, file):

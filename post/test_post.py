@@ -226,6 +226,7 @@ def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), st
             file[f"running_in/{name}"] = np.tile(values, (len(points), 1))
         for name, values in TURNS.items():
             file[f"turns/{name}"] = np.tile(values, (len(points), 1))
+        file["turns/turn"] = np.arange(1.0, 4.0)
         for name, value in LOST.items():
             file[f"summary/{name}"] = value * (1.0 + np.arange(len(points)))
             file[f"summary/{name}"].attrs["units"] = "J"
