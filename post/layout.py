@@ -218,20 +218,30 @@ class Layout:
         return "" if value is None else value if isinstance(value, str) else self._texts[key][value]
 
     def panel_name(self, panel):
-        """Title of a panel; empty without a second swept key."""
-        return ", ".join(self.name(key, value) for key, value in zip(self.panel_keys, panel))
+        """Title of a panel, of the keys that differ between panels; empty without a second swept key."""
+        return ", ".join(self.name(key, value) for place, (key, value) in enumerate(zip(self.panel_keys, panel))
+                         if len(self.panels) == 1 or self._differs(place))
+
+    def _differs(self, place):
+        """Do the panels differ in this one of their keys?"""
+        return len({panel[place] for panel in self.panels}) > 1
 
     def panel_words(self):
         """Names of the keys that make the panels."""
-        return " and ".join(self.short_names[key] for key in self.panel_keys)
+        return " and ".join(self.short_names[key] for place, key in enumerate(self.panel_keys) if self._differs(place))
 
     def axis_name(self, key):
         """Label of an axis along a swept key."""
         return with_unit(self.short_names[key], self.units[key])
 
     def common_words(self):
-        """What all cases of a list have in common, and how many of them have lost contact."""
+        """What all cases have in common, how many of them have no result, and how many have lost contact."""
         words = [self.name(key, value) for key, value in self.common.items()] if self.is_list else []
+        words += [self.name(key, self.panels[0][place]) for place, key in enumerate(self.panel_keys)
+                  if len(self.panels) > 1 and not self._differs(place)]
+        failed = sum(case in self.failed[number] for number, chosen in enumerate(self.chosen) for case in chosen)
+        if failed:
+            words.append(f"{failed} of {sum(map(len, self.chosen))} cases have no result")
         lost = sum(_has_lost_contact(self.results[entry.file], entry.case) for entry in self.entries)
         if lost:
             words.append(f"contact is lost in {lost} of {len(self.entries)} cases" if len(self.entries) > 1 else "contact is lost")

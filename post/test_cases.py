@@ -341,7 +341,8 @@ def test_values_with_a_result_are_the_ones_that_are_shown(tmp_path):
     figure = draw("drive_torque", layout)
     assert [axes.get_title() for axes in figure.axes if curves(axes)] == ["300 rev/min", "2900 rev/min"]
     assert not [text for axes in figure.axes for text in axes.texts] and "2 of 4 values of speed shown" in title(figure)
-    assert legend(draw("slip", layout)) == ["300 rev/min", "2900 rev/min"]
+    figure = draw("slip", layout)
+    assert legend(figure) == ["300 rev/min", "2900 rev/min"] and "2 of 4 cases have no result" in title(figure)
 
 
 @pytest.mark.parametrize("groups, expected", [((), [0, 3, 6, 9]), (({4},), [0, 4, 6, 9]), (({4}, {3}), [0, 3, 4, 9]),
@@ -440,6 +441,13 @@ def test_sources_have_the_names_of_the_table_and_adjusters_only_where_there_are_
             assert words in names and "roller bearing" in names and "needle bearing" not in names
         with h5py.File(path, "a") as file:
             file[f"deck/values/lash_adjuster.key_{len(words)}"] = 10.0
+
+
+def test_a_key_that_is_the_same_in_all_panels_is_said_once(tmp_path):
+    layout = Layout([read_result(write_result(tmp_path / "nine.h5", step=15.0))])
+    layout.panel_keys, layout.panels = [OIL, SPEED], [(25.0, 300.0), (60.0, 300.0)]
+    assert [layout.panel_name(panel) for panel in layout.panels] == ["25 °C", "60 °C"]
+    assert layout.common_words() == ["300 rev/min"] and layout.panel_words() == "oil temperature"
 
 
 def test_swept_words_are_labels(tmp_path):
