@@ -13,6 +13,7 @@ module camroller_export
    use camroller_near_names, only : nearest_name
    use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
    use camroller_number_text, only : integer_text, write_number, number_length
+   use camroller_output_file, only : not_computed
    use camroller_output_kind, only : table_kind
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t
    use camroller_result_columns, only : head_column, make_columns, open_result, read_column, table_t
@@ -26,6 +27,8 @@ module camroller_export
    integer, parameter :: export_series = 1, export_summary = 2
    !> Forms of a table: CSV with a line of names and one of units, CSV with one line of names with units, JSON
    character(len=*), parameter :: export_formats(*) = [character(len=5) :: "csv", "plain", "json"]
+   !> Group of measured values; its columns are called as in the table of cases that they come from
+   character(len=*), parameter :: measured_group = "/measured", measured_prefix = measured_group(2:)//"."
    !> Digits after the first one: 17 tell any two numbers apart
    integer, parameter :: decimals = 16
    !> Letters that are handed over at a time
@@ -96,7 +99,7 @@ contains
       do i = 1, size(names)
          names(i) = table%names(i)%text
          if (what == export_series .and. names(i) == "cam_angle") places = [places, i]
-         if (what == export_summary .and. (i == 1 .or. index(names(i), ".") > 0)) places = [places, i]
+         if (what == export_summary .and. (i == 1 .or. is_swept_key(names(i)))) places = [places, i]
       end do
       first = 1
       do while (first <= len_trim(wanted))
@@ -119,6 +122,16 @@ contains
       table%words = table%words(:, places)
       table%has_words = table%has_words(places)
    end subroutine choose_columns
+
+   !> Is a column of a summary a key that varies?
+   pure function is_swept_key(name) result(verdict)
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> Is it?
+      logical :: verdict
+
+      verdict = index(name, ".") > 0 .and. index(name, measured_prefix) /= 1
+   end function is_swept_key
 
    !> Series of one case.
    subroutine read_series(file, cases, case, table, error)
@@ -156,6 +169,10 @@ contains
          call head_column(file, "/series/"//trim(names(i)), table, i, error)
          if (allocated(error)) return
       end do
+      if (all(ieee_is_nan(table%numbers) .or. spread(names == "cam_angle", 1, angles(1)))) then
+         call raise(error, kind_usage, "the series of case "//integer_text(case)//" were not kept: a sweep keeps those that "// &
+            & "'sweep.series' and 'sweep.series_cases' say")
+      end if
    end subroutine read_series
 
    !> Scalars of all cases, behind the number of the case, the swept keys and what was measured.
@@ -174,14 +191,16 @@ contains
       logical :: has_measured
 
       paths = [character(len=member_length) :: "/case"]
-      has_measured = has_member(file, "/measured")
+      has_measured = has_member(file, measured_group)
       call add_paths(file, "/sweep", paths, error)
-      if (.not. allocated(error) .and. has_measured) call add_paths(file, "/measured", paths, error)
+      if (.not. allocated(error) .and. has_measured) call add_paths(file, measured_group, paths, error)
       if (.not. allocated(error)) call add_paths(file, "/summary", paths, error)
       if (allocated(error)) return
       call make_columns(table, cases, size(paths))
       do i = 1, size(paths)
-         if (.not. allocated(error)) call read_column(file, trim(paths(i)), table, i, error)
+         call read_column(file, trim(paths(i)), table, i, error)
+         if (allocated(error)) return
+         if (index(paths(i), measured_group//"/") == 1) table%names(i)%text = measured_prefix//table%names(i)%text
       end do
    end subroutine read_summary
 
@@ -208,7 +227,7 @@ contains
       end do
    end subroutine add_paths
 
-   !> An error where a case does not exist or has failed.
+   !> An error where a case does not exist, was not computed or has failed.
    subroutine check_case(file, cases, case, error)
       !> A result file
       type(hdf5_object_t), intent(in) :: file
@@ -234,6 +253,8 @@ contains
          if (.not. allocated(error)) then
             call raise(error, kind_usage, "case "//integer_text(case)//" has no series, it failed: "//message)
          end if
+      else if (nint(status(1)) == not_computed) then
+         call raise(error, kind_usage, "case "//integer_text(case)//" has no series, it was not computed: the file is partial")
       else if (.not. has_member(file, "/series/cam_angle")) then
          call raise(error, kind_usage, "'"//file%file//"' holds no series, the summary alone")
       end if

@@ -3,15 +3,15 @@
 !> In: a result file. Out: a table of numbers or words by column.
 module camroller_result_columns
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, kind_file
+   use camroller_error, only : error_t, raise, kind_file, kind_usage
    use camroller_hdf5_object, only : hdf5_object_t
-   use camroller_hdf5_read, only : check_extents, is_text_dataset, open_file, read_extents, read_integer_attribute, read_numbers, &
-      & read_text, read_text_attribute
+   use camroller_hdf5_read, only : check_extents, has_member, is_text_dataset, open_file, read_extents, read_integer_attribute, &
+      & read_numbers, read_text, read_text_attribute
    use camroller_output_file, only : format_version, result_format
    implicit none
    private
 
-   public :: word_t, table_t, open_result, read_column, make_columns, head_column
+   public :: word_t, table_t, open_result, check_has_cases, read_column, make_columns, head_column
 
    !> A word of the table
    type :: word_t
@@ -33,7 +33,7 @@ module camroller_result_columns
 
 contains
 
-   !> Open a file that is one of our results, and was written to its end: complete, or partial by intention.
+   !> Open a file that is one of our results with scalars of cases, and was written to its end: complete, or partial by intention.
    subroutine open_result(file, path, cases, error)
       !> The open file
       type(hdf5_object_t), intent(out) :: file
@@ -41,7 +41,7 @@ contains
       character(len=*), intent(in) :: path
       !> Number of cases, in one element
       integer, allocatable, intent(out) :: cases(:)
-      !> File error
+      !> File error; usage error where it is of a command whose files have no scalars of cases
       type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: form
@@ -69,8 +69,34 @@ contains
       if (.not. allocated(error) .and. version > format_version) then
          call raise(error, kind_file, "cannot read '"//path//"': it was written by a newer camroller")
       end if
+      if (.not. allocated(error)) call check_has_cases(file, .false., error)
       if (.not. allocated(error)) call read_extents(file, "/case", 1, cases, error)
    end subroutine open_result
+
+   !> An error that says what a file holds where that is something else than scalars and series of cases.
+   subroutine check_has_cases(file, is_with_contacts, error)
+      !> A result file
+      type(hdf5_object_t), intent(in) :: file
+      !> May it hold solved contacts as well?
+      logical, intent(in) :: is_with_contacts
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: command
+
+      if (has_member(file, "/summary")) then
+         if (has_member(file, "/summary/status")) return
+      end if
+      if (has_member(file, "/study")) then
+         command = "study"
+         if (has_member(file, "/study/audit")) command = "audit"
+         call raise(error, kind_usage, "'"//file%file//"' is a file of 'camroller "//command//"', with a table in /study and "// &
+            & "no cases that could be exported or computed again; 'python post/plot_"//command//".py' draws it")
+      else if (has_member(file, "/ehl") .and. .not. is_with_contacts) then
+         call raise(error, kind_usage, "'"//file%file//"' is a file of 'camroller ehl', with solved contacts in /ehl and no "// &
+            & "series and scalars that could be exported; 'camroller rerun' computes it again, 'python post/ehl.py' draws it")
+      end if
+   end subroutine check_has_cases
 
    !> Read a dataset with one value for each case into a column.
    subroutine read_column(file, name, table, position, error)
