@@ -6,7 +6,7 @@ module camroller_c_library
    implicit none
    private
 
-   public :: glob_t, c_access, c_close, c_closedir, c_errno, c_fallocate, c_fclose, c_fileno, c_flock, c_fopen, c_fread, &
+   public :: glob_t, c_access, c_chmod, c_close, c_closedir, c_errno, c_fallocate, c_fclose, c_fileno, c_flock, c_fopen, c_fread, &
       & c_fseek, c_fsync, c_ftell, c_ftruncate, c_getpid, c_glob, c_globfree, c_gmtime, c_lseek, c_open, c_opendir, &
       & c_pread, c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time, c_unlink, c_write
 
@@ -24,6 +24,13 @@ module camroller_c_library
          integer(c_int), value :: mode
          integer(c_int) :: status
       end function c_access
+
+      function c_chmod(path, mode) bind(C, name="chmod") result(status)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+         integer(c_int) :: status
+      end function c_chmod
 
       function c_close(descriptor) bind(C, name="close") result(status)
          import :: c_int

@@ -20,6 +20,8 @@ module camroller_file_facts
       integer(int64) :: bytes = 0
       !> Kind, as the system numbers it
       integer :: kind = 0
+      !> Who may read, write and execute it, as the system numbers it
+      integer :: permissions = 0
       !> Device, in two numbers, and number of the file on it
       integer :: device(2) = 0
       integer(int64) :: node = 0
@@ -45,7 +47,8 @@ module camroller_file_facts
 
    !> What `statx` takes: a path from the present folder, the link itself, an empty path for the descriptor, the basic facts
    integer(c_int), parameter :: from_here = -100_c_int, not_followed = 256_c_int, empty_path = 4096_c_int, basic_facts = 2047_c_int
-   !> Part of the mode that holds the kind, and its values
+   !> Part of the mode that holds the permissions; part that holds the kind, and its values
+   integer, parameter :: permission_mask = 511
    integer, parameter :: kind_mask = 61440, kind_pipe = 4096, kind_characters = 8192, kind_folder = 16384, kind_blocks = 24576, &
       & kind_regular = 32768, kind_link = 40960, kind_socket = 49152
 
@@ -102,6 +105,7 @@ contains
       facts%is_there = c_statx(folder, path//c_null_char, flags, basic_facts, answer) == 0
       if (.not. facts%is_there) return
       facts%kind = iand(int(answer%mode), kind_mask)
+      facts%permissions = iand(int(answer%mode), permission_mask)
       facts%is_regular = facts%kind == kind_regular
       if (facts%is_regular) facts%bytes = answer%bytes
       facts%device = answer%device

@@ -12,13 +12,13 @@ module camroller_new_file
    use camroller_number_text, only : integer_text
    use camroller_output_kind, only : is_earlier_output, output_kind_t
    use camroller_raw_file, only : append_text, close_raw, create_raw, open_raw, raw_file_t, settle_raw
-   use camroller_system_file, only : is_folder, process_number, remove_file, rename_file, resolve_path
+   use camroller_system_file, only : is_folder, process_number, remove_file, rename_file, resolve_path, set_permissions
    use camroller_text_file, only : folder_of
    use camroller_unfinished, only : forget_unfinished, remember_unfinished
    implicit none
    private
 
-   public :: new_file_t, check_place, begin_new_file, end_new_file, drop_new_file, save_text
+   public :: new_file_t, check_place, begin_new_file, take_permissions, end_new_file, drop_new_file, save_text
 
    !> Names that are tried for an unfinished file
    integer, parameter :: most_attempts = 100
@@ -31,12 +31,14 @@ module camroller_new_file
       character(len=:), allocatable :: place
       !> Path while it is not finished, in the folder of its place; not allocated where nothing is being written
       character(len=:), allocatable :: temporary
+      !> Permissions of the file that it replaces; below zero where it replaces none
+      integer :: permissions = -1
    end type new_file_t
 
 contains
 
-   !> An error where a file may not be written: it would replace one that is read, something that is no regular file, or a file that
-   !> is no earlier output of its kind.
+   !> An error where a file may not be written: it has no folder, or would replace one that is read, something that is no regular
+   !> file, or a file that is no earlier output of its kind.
    subroutine check_place(path, kind, inputs, error)
       !> Path of the file
       character(len=*), intent(in) :: path
@@ -52,7 +54,11 @@ contains
       integer :: i
 
       facts = facts_of_path(path)
-      if (.not. facts%is_there) return
+      if (.not. facts%is_there) then
+         if (.not. is_folder(folder_of(path)//".")) call raise(error, kind_file, "cannot write '"//path// &
+            & "': there is no folder '"//folder_of(path)//"'")
+         return
+      end if
       do i = 1, size(inputs)
          if (.not. is_same_file(facts, facts_of_path(inputs(i)%text))) cycle
          call raise(error, kind_usage, "'"//path//"' would replace '"//inputs(i)%text//"', which is read; give the result "// &
@@ -94,11 +100,8 @@ contains
       call check_place(path, kind, inputs, error)
       if (allocated(error)) return
       facts = facts_of_path(path)
+      if (facts%is_there) file%permissions = facts%permissions
       if (facts%is_there) file%place = resolve_path(path)
-      if (.not. is_folder(folder_of(file%place)//".")) then
-         call raise(error, kind_file, "cannot write '"//path//"': there is no folder '"//folder_of(path)//"'")
-         return
-      end if
       do attempt = 0, most_attempts - 1
          file%temporary = file%place//".unfinished-"//integer_text(process_number())//"-"//integer_text(attempt)
          facts = facts_of_path(file%temporary)
@@ -106,6 +109,14 @@ contains
       end do
       call remember_unfinished(file%temporary)
    end subroutine begin_new_file
+
+   !> Let those read and write an unfinished file who may do so with the file that it replaces.
+   subroutine take_permissions(file)
+      !> A file that is there
+      type(new_file_t), intent(in) :: file
+
+      if (file%permissions >= 0) call set_permissions(file%temporary, file%permissions)
+   end subroutine take_permissions
 
    !> Give a complete file its name; it has to be on disk with all that was written. Where that fails, it is removed.
    subroutine end_new_file(file, bytes, error)
@@ -126,6 +137,7 @@ contains
          call settle_raw(content, error)
       end if
       if (.not. allocated(error)) then
+         call take_permissions(file)
          call rename_file(file%temporary, file%place, done)
          if (.not. done) call raise(error, kind_file, "cannot write '"//file%path//"': '"//file%temporary// &
             & "' could not be given that name")

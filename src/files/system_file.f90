@@ -4,12 +4,12 @@
 module camroller_system_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_null_char, &
       & c_null_ptr, c_ptr, c_size_t
-   use camroller_c_library, only : c_closedir, c_errno, c_fallocate, c_fsync, c_ftruncate, c_getpid, c_gmtime, c_opendir, &
+   use camroller_c_library, only : c_chmod, c_closedir, c_errno, c_fallocate, c_fsync, c_ftruncate, c_getpid, c_gmtime, c_opendir, &
       & c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time
    implicit none
    private
 
-   public :: process_number, is_folder, rename_file, remove_file, resolve_path
+   public :: process_number, is_folder, rename_file, remove_file, resolve_path, set_permissions
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
    public :: ignore_size_signal, restore_size_signal, error_number, system_words, text_at_address
 
@@ -58,6 +58,18 @@ contains
 
       done = c_rename(old//c_null_char, new//c_null_char) == 0
    end subroutine rename_file
+
+   !> Say who may read, write and execute a file; nothing happens where the system refuses.
+   subroutine set_permissions(path, permissions)
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> As the system numbers them
+      integer, intent(in) :: permissions
+
+      integer(c_int) :: status
+
+      status = c_chmod(path//c_null_char, int(permissions, c_int))
+   end subroutine set_permissions
 
    !> Path of a file without links.
    function resolve_path(path) result(resolved)

@@ -13,7 +13,7 @@ module camroller_output_file
    use camroller_hdf5_file, only : close_file, create_file, create_group, create_integers, discard_file, &
       & flush_file, hand_over_file, reserve_file, write_integers
    use camroller_hdf5_attribute, only : make_scale, put_attribute
-   use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
+   use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t, take_permissions
    use camroller_output_kind, only : result_kind
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t, settle_raw
    use camroller_seal, only : seal_file
@@ -152,7 +152,11 @@ contains
       call begin_new_file(writer%place, writer%path, result_kind, error)
       if (.not. allocated(error)) call try_path(writer, error)
       if (.not. allocated(error)) call create_file(writer%file, writer%place%temporary, writer%path, error)
-      if (allocated(error)) call abandon_output(writer)
+      if (allocated(error)) then
+         call abandon_output(writer)
+      else
+         call take_permissions(writer%place)
+      end if
    end subroutine create_temporary
 
    !> Write and remove a small file: the library does not survive a device that is full from the start.

@@ -178,6 +178,18 @@ def test_a_path_that_cannot_be_written_is_an_error(camroller, place, words):
     assert words in finished.stderr
 
 
+def test_a_file_keeps_the_permissions_of_the_one_it_replaces(camroller, tmp_path):
+    """Of a result, which HDF5 creates, and of a table."""
+    coarse = ["--point", "speed_rpm=600", "--set", "output.angle_step_deg=20", "--quiet"]
+    for name, arguments in (("r.h5", ["run", DECK, *coarse]), ("r.csv", ["export", "r.h5"])):
+        words = [camroller, *arguments, "-o", name]
+        for mode in (None, 0o600, 0o664):
+            if mode is not None:
+                (tmp_path / name).chmod(mode)
+            subprocess.run(words, cwd=tmp_path, check=True, timeout=60)
+            assert mode is None or (tmp_path / name).stat().st_mode & 0o777 == mode
+
+
 def test_a_killed_run_leaves_the_earlier_file(camroller, tmp_path):
     target = tmp_path / "old.h5"
     target.write_bytes(EARLIER_RESULT)
