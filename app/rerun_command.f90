@@ -12,20 +12,24 @@ module camroller_rerun_command
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, override_t, add_override, parse_deck
    use camroller_deck_sweep, only : sweep_size
-   use camroller_deck_tables, only : deck_tables_t
+   use camroller_deck_files, only : list_case_tables
+   use camroller_deck_tables, only : deck_tables_t, kept_table_t, table_groups
    use camroller_ehl_rerun, only : is_ehl_file, rerun_contacts
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_object, only : hdf5_object_t
-   use camroller_hdf5_read, only : has_member, list_members, member_length, open_file, read_extents, read_numbers, read_text, &
-      & read_text_attribute
+   use camroller_hdf5_read, only : has_member, list_members, member_length, open_file, read_extents, read_integer_attribute, &
+      & read_numbers, read_text, read_text_attribute
+   use camroller_mistakes, only : line_t
    use camroller_number_text, only : agreeing, counted, integer_text, number_text
    use camroller_output, only : not_computed, result_format
    use camroller_console, only : console_t, seconds_since, start_console
+   use camroller_quotes, only : in_quotes
+   use camroller_result_columns, only : check_has_cases
    use camroller_run_facts, only : find_other_build
    use camroller_settings, only : get_word, take
    use camroller_streams, only : print_lines
    use camroller_stop_signal, only : heed_stop_signals
-   use camroller_table_file, only : table_t
+   use camroller_table_file, only : read_heading, table_t
    use camroller_team, only : team_t
    implicit none
    private
@@ -123,10 +127,12 @@ contains
       end if
       if (.not. allocated(error)) call read_text(file, "/deck/text", [integer ::], text, error)
       if (.not. allocated(error)) call read_overrides(file, path, overrides, error)
+      if (.not. allocated(error)) call check_has_cases(file, .true., error)
       if (.not. allocated(error)) call read_table(file, "lift", tables%lift, error)
       if (.not. allocated(error)) call read_table(file, "second_lift", tables%second_lift, error)
       if (.not. allocated(error)) call read_table(file, "gas_force", tables%pressure, error)
       if (.not. allocated(error)) call parse_deck(deck, text, path//":/deck/text", "", overrides, error, tables, columns)
+      if (.not. allocated(error)) call read_case_tables(file, deck, error)
       if (.not. allocated(error)) call read_extents(file, "/case", 1, extents, error)
       if (allocated(error)) return
       if (extents(1) /= sweep_size(deck%sweep)) then
@@ -160,26 +166,69 @@ contains
             call add_override(overrides, text)
          end do
       end if
-      if (has_member(file, "/deck/values/sweep.table")) call add_override(overrides, "sweep.table="//path)
+      if (has_member(file, "/deck/values/sweep.table")) call add_override(overrides, "sweep.table="//in_quotes(path))
    end subroutine read_overrides
+
+   !> Tables that cases name beside those of the deck: from the file alone.
+   subroutine read_case_tables(file, deck, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> The deck; gets the tables
+      type(deck_t), intent(inout) :: deck
+      !> File error where the file does not hold them
+      type(error_t), allocatable, intent(out) :: error
+
+      type(line_t), allocatable :: names(:)
+      type(kept_table_t), allocatable :: kept(:), longer(:)
+      character(len=:), allocatable :: group
+      integer :: i, k, stored
+
+      allocate (kept(0))
+      do i = 1, size(table_groups)
+         group = trim(table_groups(i))
+         call list_case_tables(deck, group, names)
+         if (size(names) == 0) cycle
+         call read_integer_attribute(file, "/deck", "tables_"//group, stored, error)
+         if (allocated(error)) stored = 0
+         if (stored /= size(names)) then
+            call raise(error, kind_file, "'"//file%file//"' does not hold '"//names(1)%text//"', a table that cases name in '"// &
+               & group//".table', and cannot be computed again")
+            return
+         end if
+         allocate (longer(size(kept) + size(names)))
+         longer(:size(kept)) = kept
+         do k = 1, size(names)
+            associate (new => longer(size(kept) + k))
+               new%group = group
+               call read_table(file, group//"_"//integer_text(k), new%table, error)
+               new%table%path = names(k)%text
+            end associate
+            if (allocated(error)) return
+         end do
+         call move_alloc(longer, kept)
+      end do
+      call move_alloc(kept, deck%tables%kept)
+   end subroutine read_case_tables
 
    !> A table of the deck, where the file has it.
    subroutine read_table(file, group, table, error)
       !> The file, open
       type(hdf5_object_t), intent(in) :: file
-      !> Group of the deck that names the table
+      !> Group of the deck that names the table, with the number of one that cases name
       character(len=*), intent(in) :: group
-      !> The table
+      !> The table; without rows where the file does not have it
       type(table_t), intent(out) :: table
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: name, folder
+      character(len=:), allocatable :: name, heading
+      type(error_t), allocatable :: ignored
       real(wp), allocatable :: numbers(:) ! [units of the table]
       integer, allocatable :: extents(:)
       integer :: rows, i
 
       name = "/deck/table_"//group
+      allocate (table%x(0), table%y(0), table%line(0))
       if (.not. has_member(file, name)) return
       call read_extents(file, name, 2, extents, error)
       if (.not. allocated(error)) then
@@ -187,10 +236,13 @@ contains
       end if
       if (.not. allocated(error)) call read_numbers(file, name, [0, 0], extents, numbers, error)
       ! the path as the deck names it is what is looked for, the deck having no folder
-      if (.not. allocated(error)) call read_text(file, "/deck/values/"//group//".table", [integer ::], folder, error)
+      if (.not. allocated(error) .and. has_member(file, "/deck/values/"//group//".table")) then
+         call read_text(file, "/deck/values/"//group//".table", [integer ::], table%path, error)
+      end if
       if (allocated(error)) return
+      call read_text_attribute(file, name, "heading", heading, ignored)
+      if (.not. allocated(ignored)) call read_heading(heading, table)
       rows = size(numbers)/2
-      table%path = folder
       table%x = numbers(:rows)
       table%y = numbers(rows + 1:)
       table%line = [(i, i=1, rows)]
@@ -264,6 +316,8 @@ contains
             text = text//integer_text(difference%case_number)
          end associate
       end do
+      if (sink%failing > 0) text = text//new_line("a")//"  "//counted(sink%failing, "case")//agreeing(sink%failing, " has", &
+         & " have")//" no result now, first case "//integer_text(sink%first_failing)//": "//sink%message
       if (facts == "") then
          text = text//new_line("a")//"  the same version, commit, compiler and options made the file"
       else

@@ -45,7 +45,7 @@ def _word(value):
     if isinstance(value, bool):
         return ".true." if value else ".false."
     if isinstance(value, str):
-        return value if value[:1] in ("'", '"') else f"'{value}'"
+        return value if value[:1] in ("'", '"') else "'" + value.replace("'", "''") + "'"
     if isinstance(value, (list, tuple)):
         return ", ".join(_word(part) for part in value)
     if isinstance(value, numbers.Integral):

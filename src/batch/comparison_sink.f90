@@ -42,6 +42,9 @@ module camroller_comparison_sink
       type(difference_t), allocatable :: differences(:)
       !> Cases compared, cases that differ
       integer :: cases = 0, differing = 0
+      !> Cases without a result now that have one in the file, the first of them from 0, and what went wrong with it
+      integer :: failing = 0, first_failing = 0
+      character(len=:), allocatable :: message
    contains
       procedure :: announce
       procedure :: keep
@@ -130,6 +133,11 @@ contains
       if (allocated(error)) return
       do i = 1, size(outcomes)
          call compare(self, "summary/status", first + i - 2, stored(i), real(outcomes(i)%status, wp), differs(i))
+         if (outcomes(i)%status == 0 .or. nint(stored(i)) /= 0) cycle
+         self%failing = self%failing + 1
+         if (self%failing > 1) cycle
+         self%first_failing = first + i - 2
+         self%message = outcomes(i)%text
       end do
    end subroutine compare_statuses
 

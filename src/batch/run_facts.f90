@@ -8,19 +8,21 @@ module camroller_run_facts
    use camroller_error, only : error_t
    use camroller_deck, only : deck_t
    use camroller_deck_document, only : echo_t, get_echo
-   use camroller_deck_tables, only : wanted_columns
+   use camroller_deck_files, only : list_case_tables
+   use camroller_deck_tables, only : find_table, table_groups, wanted_columns
    use camroller_deck_sweep, only : measured_numbers, measured_prefix, sweep_numbers, sweep_size, sweep_t, sweep_words
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_text_attribute
-   use camroller_mistakes, only : mistakes_t
+   use camroller_mistakes, only : line_t, mistakes_t
    use camroller_number_text, only : hexadecimal => hexadecimal_text, integer_text
    use camroller_output, only : output_t, write_deck, write_deck_table, write_measured, write_overrides, &
-      & write_run, write_sweep
+      & write_run, write_sweep, write_table_count
    use camroller_part_scan, only : study_facts_t
+   use camroller_quotes, only : without_quotes
    use camroller_record, only : checksum, text_words
    use camroller_settings, only : get_word
    use camroller_system_file, only : utc_date
-   use camroller_table_file, only : read_table, table_t
+   use camroller_table_file, only : read_table, table_t, write_heading
    use camroller_text_file, only : join_path
    use camroller_text_list, only : text_at, text_list_t
    use camroller_version, only : version_text, build_commit, compiler_facts
@@ -29,8 +31,6 @@ module camroller_run_facts
 
    public :: write_facts, study_facts, study_digest, find_other_build
 
-   !> Groups whose key `table` names a table of two columns
-   character(len=*), parameter :: table_groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force"]
    !> Keys that say nothing about the cases: how a sweep is run, and where tables are, whose content counts
    character(len=*), parameter :: keys_beside_cases(*) = [character(len=23) :: "sweep.wall_time_limit_s", "sweep.checkpoint_s", &
       & "sweep.table", "lift.table", "second_lift.table", "gas_force.table"]
@@ -127,25 +127,43 @@ contains
          texts(i) = deck%overrides(i)%text
       end do
       if (size(texts) > 0) call write_overrides(writer, texts, error)
-      if (.not. allocated(error)) call write_table(writer, "lift", deck%tables%lift, error)
-      if (.not. allocated(error)) call write_table(writer, "second_lift", deck%tables%second_lift, error)
-      if (.not. allocated(error)) call write_table(writer, "gas_force", deck%tables%pressure, error)
+      do i = 1, size(table_groups)
+         if (.not. allocated(error)) call write_tables(writer, deck, trim(table_groups(i)), error)
+      end do
    end subroutine write_beside
 
-   !> A table of the deck, where there is one.
-   subroutine write_table(writer, group, table, error)
+   !> The table of a group, where there is one, and those that cases name, under the names in the deck. One that cannot be read is
+   !> left out: its cases have no result.
+   subroutine write_tables(writer, deck, group, error)
       !> The result file
       type(output_t), intent(inout) :: writer
-      !> Group that names it
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> The group
       character(len=*), intent(in) :: group
-      !> The table
-      type(table_t), intent(in) :: table
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      if (.not. allocated(table%path)) return
-      call write_deck_table(writer, group, table%path, table%x, table%y, error)
-   end subroutine write_table
+      type(line_t), allocatable :: names(:)
+      type(table_t) :: table
+      type(mistakes_t) :: mistakes
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: heading
+      integer :: i
+
+      call find_table(deck%tables, group, table)
+      call write_heading(table, heading)
+      if (allocated(table%path)) call write_deck_table(writer, group, table%path, heading, table%x, table%y, error)
+      call list_case_tables(deck, group, names)
+      if (size(names) > 0 .and. .not. allocated(error)) call write_table_count(writer, group, size(names), error)
+      do i = 1, size(names)
+         if (allocated(error)) return
+         call read_table(join_path(deck%folder, names(i)%text), table, mistakes, failure, wanted_columns(deck%settings, group))
+         if (allocated(failure) .or. size(table%x) == 0) cycle
+         call write_heading(table, heading)
+         call write_deck_table(writer, group//"_"//integer_text(i), names(i)%text, heading, table%x, table%y, error)
+      end do
+   end subroutine write_tables
 
    !> Program, build, date and command into the result file.
    subroutine write_build(writer, facts, error)
@@ -279,8 +297,7 @@ contains
                if (k > 1) then
                   if (name == text_at(axis%values, k - 1)) cycle
                end if
-               if (scan(name, "'""") == 1) name = name(2:len(name) - 1)
-               call add_table(deck, group, name, text)
+               call add_table(deck, group, without_quotes(name), text)
             end do
          end associate
       end do
@@ -303,14 +320,7 @@ contains
       logical :: is_at_hand
 
       if (name == "") return
-      select case (group)
-      case ("lift")
-         table = deck%tables%lift
-      case ("second_lift")
-         table = deck%tables%second_lift
-      case default
-         table = deck%tables%pressure
-      end select
+      call find_table(deck%tables, group, table)
       is_at_hand = allocated(table%path)
       if (is_at_hand) is_at_hand = table%path == join_path(deck%folder, name)
       if (.not. is_at_hand) call read_table(join_path(deck%folder, name), table, mistakes, error, &

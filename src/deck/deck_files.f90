@@ -1,19 +1,24 @@
 !> The files that a deck is read from: itself, and the tables that it or one of its cases names.
 !>
-!> In: a deck. Out: paths, so that no result replaces what it was computed from.
+!> In: a deck. Out: paths, so that no result replaces what it was computed from; names of the tables of cases, so that a result can
+!> hold them.
 module camroller_deck_files
    use camroller_deck, only : deck_t
-   use camroller_mistakes, only : line_t
+   use camroller_deck_sweep, only : axis_of
+   use camroller_deck_tables, only : find_table, table_groups
+   use camroller_mistakes, only : add_line, line_t
+   use camroller_quotes, only : without_quotes
    use camroller_settings, only : get_word
+   use camroller_table_file, only : table_t
    use camroller_text_file, only : join_path
    use camroller_text_list, only : text_at
    implicit none
    private
 
-   public :: list_deck_files
+   public :: list_deck_files, list_case_tables
 
    !> Groups with a key `table`
-   character(len=*), parameter :: groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force", "sweep"]
+   character(len=*), parameter :: groups(*) = [table_groups, "sweep      "]
 
 contains
 
@@ -48,6 +53,48 @@ contains
       end do
    end subroutine list_deck_files
 
+   !> Tables that a group names in cases of a deck and that the deck itself does not have at hand, each once.
+   subroutine list_case_tables(deck, group, names)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> The group
+      character(len=*), intent(in) :: group
+      !> Their names in the deck
+      type(line_t), allocatable, intent(out) :: names(:)
+
+      type(table_t) :: own
+      integer :: i, axis
+
+      allocate (names(0))
+      call find_table(deck%tables, group, own)
+      if (axis_of(deck%sweep, group//".law") > 0) call add_name(get_word(deck%settings, group, "table"))
+      axis = axis_of(deck%sweep, group//".table")
+      if (axis == 0) return
+      do i = 1, deck%sweep%axes(axis)%values%count
+         call add_name(without_quotes(text_at(deck%sweep%axes(axis)%values, i)))
+      end do
+
+   contains
+
+      !> Add the name of a table that is not at hand and not among the names.
+      subroutine add_name(name)
+         !> The name; blank where there is none
+         character(len=*), intent(in) :: name
+
+         integer :: k
+
+         if (name == "") return
+         if (allocated(own%path)) then
+            if (own%path == join_path(deck%folder, name)) return
+         end if
+         do k = size(names), 1, -1
+            if (names(k)%text == name) return
+         end do
+         call add_line(names, name)
+      end subroutine add_name
+
+   end subroutine list_case_tables
+
    !> Is a key the name of a file?
    pure function names_files(key) result(verdict)
       !> The key, as `group.key`
@@ -73,11 +120,7 @@ contains
 
       path = ""
       if (name == "") return
-      if (scan(name, "'""") == 1) then
-         path = join_path(deck%folder, name(2:len(name) - 1))
-      else
-         path = join_path(deck%folder, name)
-      end if
+      path = join_path(deck%folder, without_quotes(name))
    end subroutine find_path
 
 end module camroller_deck_files

@@ -9,6 +9,7 @@ module camroller_deck_sweep
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_names, only : name_length
+   use camroller_quotes, only : without_quotes
    use camroller_units, only : unit_name_length
    use camroller_number_text, only : append_number, integer_text
    use camroller_text_list, only : text_list_t, text_at
@@ -393,8 +394,7 @@ contains
       allocate (character(len=length) :: words(sweep_size(sweep)))
       do i = 1, size(words)
          call get_sweep_value(sweep, axis, i, word)
-         if (scan(word, "'""") == 1) word = word(2:len(word) - 1)
-         words(i) = word
+         words(i) = without_quotes(word)
       end do
    end subroutine sweep_words
 

@@ -3,22 +3,26 @@
 !> In: settings and the deck's folder. Out: lift or pressure over the cam angle from full lift.
 module camroller_deck_tables
    use camroller_kinds, only : wp, pi, two_pi, degree
-   use camroller_error, only : error_t
+   use camroller_error, only : error_t, raise, kind_file
    use camroller_units, only : unit_t, find_unit, from_si, to_si
    use camroller_number_text, only : number_text, integer_text
    use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_complaint, only : complain
+   use camroller_deck_table_headings, only : check_heading, wanted_columns
    use camroller_kinematics, only : mechanism_t
-   use camroller_lift_forms, only : closes_triangle, follow_contour, kind_contour, kind_roller, kind_valve, &
-      & table_kind_names, valve_lift_of
+   use camroller_lift_forms, only : closes_triangle, follow_contour, kind_contour, kind_roller, table_kind_names, &
+      & valve_lift_of
    use camroller_text_file, only : join_path
    use camroller_table_file, only : check_spacing, columns_t, read_table, table_t
    implicit none
    private
 
-   public :: deck_tables_t, obtain_tables, get_lift_table, get_pressure_table, wanted_columns
+   public :: deck_tables_t, kept_table_t, table_groups, find_table, obtain_tables, get_lift_table, get_pressure_table
+   public :: wanted_columns
 
+   !> Groups whose key `table` names a table of two columns
+   character(len=*), parameter :: table_groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force"]
    !> Fewest rows of a table
    integer, parameter :: fewest_rows = 8
    !> The largest lift must be so near to the nose [deg]
@@ -31,10 +35,20 @@ module camroller_deck_tables
    !> Difference of two pressures that are taken for the same, relative to the largest pressure [-]
    real(wp), parameter :: same_pressure = 1.0e-6_wp
 
+   !> A table that cases name
+   type :: kept_table_t
+      !> Group that names it
+      character(len=:), allocatable :: group
+      !> The table
+      type(table_t) :: table
+   end type kept_table_t
+
    !> Tables of a deck; without a path where there is none
    type :: deck_tables_t
       !> Lift of the first and of the second lobe shape, cylinder pressure
       type(table_t) :: lift, second_lift, pressure
+      !> Tables that its cases name, where they are at hand: then no other is read
+      type(kept_table_t), allocatable :: kept(:)
    end type deck_tables_t
 
 contains
@@ -51,33 +65,54 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       if (get_word(settings, "lift", "law") == "table") then
-         call obtain(settings, "lift", folder, tables%lift, mistakes)
+         call obtain(settings, "lift", folder, tables%kept, tables%lift, mistakes)
          call check_lift(settings, "lift", tables%lift, mistakes)
       end if
       if (has_group(settings, "second_lift") .and. get_word(settings, "second_lift", "law") == "table") then
-         call obtain(settings, "second_lift", folder, tables%second_lift, mistakes)
+         call obtain(settings, "second_lift", folder, tables%kept, tables%second_lift, mistakes)
          call check_lift(settings, "second_lift", tables%second_lift, mistakes)
       end if
       if (has_group(settings, "gas_force")) then
-         call obtain(settings, "gas_force", folder, tables%pressure, mistakes)
+         call obtain(settings, "gas_force", folder, tables%kept, tables%pressure, mistakes)
          call check_pressure(tables%pressure, mistakes)
       end if
    end subroutine obtain_tables
 
+   !> The table of a group that a deck has at hand; without a path where there is none.
+   pure subroutine find_table(tables, group, table)
+      !> Tables of the deck
+      type(deck_tables_t), intent(in) :: tables
+      !> One of `table_groups`
+      character(len=*), intent(in) :: group
+      !> The table
+      type(table_t), intent(out) :: table
+
+      select case (group)
+      case ("lift")
+         table = tables%lift
+      case ("second_lift")
+         table = tables%second_lift
+      case default
+         table = tables%pressure
+      end select
+   end subroutine find_table
+
    !> Have one table at hand.
-   subroutine obtain(settings, group, folder, table, mistakes)
+   subroutine obtain(settings, group, folder, kept, table, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Group that names the table
       character(len=*), intent(in) :: group
       !> Folder of the deck
       character(len=*), intent(in) :: folder
+      !> Tables that are at hand where no other is to be read
+      type(kept_table_t), allocatable, intent(in) :: kept(:)
       !> The table
       type(table_t), intent(inout) :: table
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      character(len=:), allocatable :: path, unit
+      character(len=:), allocatable :: path
       type(error_t), allocatable :: error
       type(columns_t) :: columns
       integer :: before
@@ -93,7 +128,11 @@ contains
          end if
       end if
       before = mistakes%count
-      call read_table(path, table, mistakes, error, columns)
+      if (allocated(kept)) then
+         call take_kept(kept, group, path, table, error)
+      else
+         call read_table(path, table, mistakes, error, columns)
+      end if
       if (allocated(error)) then
          call complain(mistakes, settings, group, "table", error%message)
       else if (mistakes%count == before .and. size(table%x) < fewest_rows) then
@@ -102,33 +141,34 @@ contains
       else if (mistakes%count == before) then
          call check_spacing(table, mistakes)
       end if
-      if (mistakes%count == before .and. table%unit /= "") then
-         unit = get_word(settings, group, "table_unit")
-         if (unit /= table%unit) call complain(mistakes, settings, group, "table_unit", "the heading of the table has '"// &
-            & trim(table%unit)//"', not '"//unit//"'")
-      end if
+      if (mistakes%count == before) call check_heading(settings, group, table, mistakes)
       if (mistakes%count > before) table%x = table%x(:0)
    end subroutine obtain
 
-   !> Columns that a table is read from where its heading has their names, as that of `check --cam` does.
-   function wanted_columns(settings, group) result(columns)
-      !> The settings
-      type(settings_t), intent(in) :: settings
-      !> Group that names the table
-      character(len=*), intent(in) :: group
-      !> The columns, and the lobe shape; blank for a table of pressure, whose columns have no names
-      type(columns_t) :: columns
+   !> A table among those at hand.
+   subroutine take_kept(kept, group, path, table, error)
+      !> Tables at hand
+      type(kept_table_t), intent(in) :: kept(:)
+      !> Group that names it, and its path
+      character(len=*), intent(in) :: group, path
+      !> The table
+      type(table_t), intent(inout) :: table
+      !> File error where it is not among them
+      type(error_t), allocatable, intent(out) :: error
 
-      columns%key = "lobe"
-      columns%number = merge(2, 1, group == "second_lift")
-      if (group == "gas_force") return
-      select case (findloc(table_kind_names, get_word(settings, group, "table_kind"), 1))
-      case (kind_valve)
-         columns%names = [character(len=len(columns%names)) :: "cam_angle", "valve_lift"]
-      case (kind_contour)
-         columns%names = [character(len=len(columns%names)) :: "polar_angle", "cam_radius"]
-      end select
-   end function wanted_columns
+      integer :: i
+
+      do i = 1, size(kept)
+         if (kept(i)%group /= group .or. kept(i)%table%path /= path) cycle
+         table = kept(i)%table
+         exit
+      end do
+      if (i > size(kept)) then
+         call raise(error, kind_file, "the table '"//path//"' is not at hand")
+      else if (size(table%x) == 0) then
+         call raise(error, kind_file, "the table '"//path//"' could not be read")
+      end if
+   end subroutine take_kept
 
    !> Is a table a lift: from zero to zero, nowhere negative, around the nose, within one turn?
    subroutine check_lift(settings, group, table, mistakes)

@@ -1,8 +1,8 @@
 !> Tables of cases: one column for each key that varies, one row for each case, from a text or a file that a reader takes.
 !>
 !> In: a path. Out: columns of texts under the names of their keys. In text, the first line that is no comment
-!> holds the names, as `group.key`; columns are parted by commas, blanks or tabulators, `#` or `!` begins a comment, names may
-!> stand in quotes.
+!> holds the names, as `group.key`; columns are parted by commas, semicolons, blanks or tabulators, `#` or `!` begins a comment,
+!> names may stand in quotes.
 module camroller_sweep_table
    use camroller_error, only : error_t
    use camroller_mistakes, only : mistakes_t, add_mistake

@@ -5,8 +5,8 @@
 module camroller_hdf5_columns
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use camroller_names, only : name_length
    use camroller_number_text, only : number_text
+   use camroller_quotes, only : in_quotes
    use camroller_text_list, only : new_text_list, put_text_at
    use camroller_case_columns, only : column_t, column_reader_t
    use camroller_hdf5_object, only : hdf5_object_t
@@ -20,8 +20,6 @@ module camroller_hdf5_columns
 
    !> Digits that give every number back
    integer, parameter :: all_digits = 17
-   !> Longest name in a column of names
-   integer, parameter :: longest_name = name_length + 2
 
    !> Reader of tables in HDF5 files
    type, extends(column_reader_t) :: hdf5_columns_t
@@ -103,7 +101,7 @@ contains
       !> Values of the dataset [unit of the key]
       real(wp), allocatable :: numbers(:)
       integer, allocatable :: extents(:)
-      integer :: i, n
+      integer :: i, n, width, pass
 
       call read_extents(file, name, 1, extents, error)
       if (allocated(error)) return
@@ -111,11 +109,15 @@ contains
       if (allocated(column%lines)) deallocate (column%lines)
       allocate (column%lines(n), source=0)
       if (is_text_dataset(file, name)) then
-         call new_text_list(column%cells, n, longest_name)
-         do i = 1, n
-            call read_text(file, name, [i - 1], text, error)
-            if (allocated(error)) return
-            call put_text_at(column%cells, i, "'"//text//"'")
+         width = 1
+         do pass = 1, 2
+            if (pass == 2) call new_text_list(column%cells, n, width)
+            do i = 1, n
+               call read_text(file, name, [i - 1], text, error)
+               if (allocated(error)) return
+               width = max(width, len(in_quotes(text)))
+               if (pass == 2) call put_text_at(column%cells, i, in_quotes(text))
+            end do
          end do
       else
          call new_text_list(column%cells, n, all_digits + 8)

@@ -5,6 +5,7 @@
 module camroller_deck_matching
    use camroller_kinds, only : wp
    use camroller_names, only : write_names
+   use camroller_quotes, only : in_quotes
    use camroller_mistakes, only : mistakes_t, add_mistake, is_shown_at, override_place, shown
    use camroller_near_names, only : nearest_name
    use camroller_deck_text, only : deck_text_t, assignment_t, to_lower
@@ -307,7 +308,7 @@ contains
          text = trim(adjustl(override%text(equals + 1:)))
          associate (value => settings%values(key))
             if (schema%keys(key)%type == type_name .or. schema%keys(key)%type == type_text) then
-               if (scan(text, "'""") /= 1) text = "'"//text//"'"
+               if (scan(text, "'""") /= 1) text = in_quotes(text)
             else if (scan(text, "=/!&") > 0) then
                reason = "'"//shown(text)//"' is no value of '"//trim(value%name)//"'"
             end if

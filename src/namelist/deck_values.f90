@@ -7,9 +7,10 @@ module camroller_deck_values
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp
    use camroller_names, only : index_of_name
+   use camroller_quotes, only : is_quoted
    use camroller_units, only : to_si
    use camroller_number_text, only : integer_text, is_beyond_range
-   use camroller_value_syntax, only : is_number_list, is_quoted, is_yes_or_no
+   use camroller_value_syntax, only : is_number_list, is_yes_or_no
    use camroller_mistakes, only : shown
    use camroller_near_names, only : nearest_name
    use camroller_deck_bounds, only : is_bounded, say_bounds
@@ -321,29 +322,46 @@ contains
          & (number < range%largest .or. (range%with_largest .and. .not. number > range%largest))
    end function is_within
 
-   !> Next word of a list; quoted text stays in one piece, with its quotes.
-   pure subroutine next_word(text, position, first, last)
+   !> Next word of a list; quoted text stays in one piece, with its quotes, and with those inside, which are doubled.
+   pure subroutine next_word(text, position, first, last, with_semicolons)
       !> The list
       character(len=*), intent(in) :: text
       !> Where to begin; behind the word on return
       integer, intent(inout) :: position
       !> First and last character of the word; the first is 0 where there is none left
       integer, intent(out) :: first, last
+      !> Do semicolons part words, too? Not where this is left out
+      logical, intent(in), optional :: with_semicolons
 
+      character(len=4) :: separators
+
+      separators = " ,"//char(9)
+      if (present(with_semicolons)) separators(4:) = merge(";", " ", with_semicolons)
       first = 0
       last = 0
       do while (position <= len(text))
-         if (index(" ,"//char(9), text(position:position)) == 0) exit
+         if (index(separators, text(position:position)) == 0) exit
          position = position + 1
       end do
       if (position > len(text)) return
       first = position
-      if (index("'""", text(first:first)) > 0) then
-         last = index(text(first + 1:), text(first:first))
-         last = merge(len(text), first + last, last == 0)
-      else
-         last = scan(text(first:), " ,"//char(9))
+      last = first
+      if (index("'""", text(first:first)) == 0) then
+         last = scan(text(first:), separators)
          last = merge(len(text), first + last - 2, last == 0)
+      else if (index(text(first + 1:), text(first:first)) == 0) then
+         last = len(text)
+      else
+         do
+            last = last + index(text(last + 1:), text(first:first))
+            if (last == len(text)) exit
+            if (text(last + 1:last + 1) /= text(first:first)) exit
+            if (index(text(last + 2:), text(first:first)) == 0) then
+               last = len(text)
+               exit
+            end if
+            last = last + 1
+         end do
       end if
       position = last + 1
    end subroutine next_word
@@ -381,7 +399,7 @@ contains
       number = count([(text(i:i) == ",", i=1, len(text))])
    end function commas
 
-   !> Cut a list into its words.
+   !> Cut a line into its words, which semicolons part as well.
    pure subroutine split_words(text, words, count)
       !> The list
       character(len=*), intent(in) :: text
@@ -396,7 +414,7 @@ contains
       words = ""
       position = 1
       do while (count < size(words))
-         call next_word(text, position, first, last)
+         call next_word(text, position, first, last, with_semicolons=.true.)
          if (first == 0) exit
          count = count + 1
          words(count) = text(first:last)

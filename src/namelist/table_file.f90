@@ -14,7 +14,7 @@ module camroller_table_file
    implicit none
    private
 
-   public :: table_t, columns_t, read_table, check_spacing
+   public :: table_t, columns_t, read_table, read_heading, write_heading, check_spacing
 
    !> Length of the name of a column, and of its unit
    integer, parameter :: column_name_length = 16
@@ -40,8 +40,8 @@ module camroller_table_file
       integer, allocatable :: line(:)
       !> The columns that its heading named; not allocated where it has two without names
       type(columns_t), allocatable :: columns
-      !> Unit of the second of them, as in `name [unit]`; blank where the heading has none
-      character(len=column_name_length) :: unit = ""
+      !> Names and units of the two columns in the heading; blank where it has none
+      character(len=column_name_length) :: names(2) = "", units(2) = ""
    end type table_t
 
    !> What parts columns
@@ -89,7 +89,7 @@ contains
             if (is_first .and. has_words(line)) then
                is_first = .false.
                if (is_heading(line(:content_length(line)))) then
-                  if (present(columns)) call read_heading(line, columns, table, places)
+                  call read_heading(line, table, columns, places)
                   cycle
                end if
             end if
@@ -132,48 +132,104 @@ contains
       verdict = verify(line(:content_length(line)), separators) > 0
    end function has_words
 
-   !> Find the columns that a heading names.
-   subroutine read_heading(line, columns, table, places)
+   !> Read a heading: the names of the columns, and their units.
+   subroutine read_heading(line, table, columns, places)
       !> The heading
       character(len=*), intent(in) :: line
-      !> What is wanted
-      type(columns_t), intent(in) :: columns
-      !> Gets the columns and the unit, where both names are there
+      !> Gets names and units of the columns that are read: of those that are wanted where it has both, of two where it has no more
       type(table_t), intent(inout) :: table
+      !> What is wanted
+      type(columns_t), intent(in), optional :: columns
       !> Places of the two columns, of that with the key, and number of all; 0 where the names are not there
-      integer, intent(out) :: places(4)
+      integer, intent(out), optional :: places(4)
 
-      character(len=:), allocatable :: marks, cell
-      integer :: first, last, length, count, i
+      character(len=column_name_length) :: name, unit, units(2)
+      integer :: first, count, found(4), i
 
-      places = 0
-      if (columns%names(1) == "") return
-      length = content_length(line)
-      marks = ",;"//char(9)
-      if (scan(line(:length), marks) == 0) marks = " "
+      found = 0
       count = 0
       first = 1
-      do while (first <= length)
-         last = scan(line(first:length), marks)
-         last = merge(length, first + last - 2, last == 0)
+      do
+         call next_cell(line(:content_length(line)), first, name, unit)
+         if (name == "") exit
+         count = count + 1
+         if (count <= 2) table%names(count) = name
+         if (count <= 2) table%units(count) = unit
+         if (.not. present(columns)) cycle
+         if (name == columns%key) found(3) = count
+         i = findloc(columns%names, name, dim=1)
+         if (i == 0) cycle
+         found(i) = count
+         units(i) = unit
+      end do
+      if (any(found(:2) == 0)) then
+         found = 0
+         if (count > 2) table%names = ""
+         if (count > 2) table%units = ""
+      else
+         found(4) = count
+         table%names = columns%names
+         table%units = units
+         table%columns = columns
+      end if
+      if (present(places)) places = found
+   end subroutine read_heading
+
+   !> Next cell of a heading, as `name [unit]`, in small letters. Words are parted by `_`; behind a name that has one, words are
+   !> left out.
+   pure subroutine next_cell(line, first, name, unit)
+      !> The heading, without its comment
+      character(len=*), intent(in) :: line
+      !> Where to begin; behind the cell on return
+      integer, intent(inout) :: first
+      !> Name, blank where there is no cell left; unit, blank where it has none
+      character(len=*), intent(out) :: name, unit
+
+      character(len=:), allocatable :: cell
+      integer :: last, opening, i
+
+      name = ""
+      unit = ""
+      do while (name == "" .and. first <= len(line))
+         if (scan(line, separators(2:)) > 0) then
+            last = scan(line(first:), separators(2:))
+         else
+            first = first + verify(line(first:)//".", " ") - 1
+            last = scan(line(first:), " ")
+            ! A unit behind a blank belongs to the name before it
+            if (last > 0) then
+               opening = verify(line(first + last:), " ")
+               if (opening > 0) then
+                  if (line(first + last + opening - 1:first + last + opening - 1) == "[") last = index(line(first:), "]") + 1
+               end if
+            end if
+            if (last == 1 .or. last > len(line(first:))) last = 0
+         end if
+         last = merge(len(line), first + last - 2, last == 0)
          cell = trim(adjustl(line(first:last)))
          first = last + 2
-         if (cell == "") cycle
-         count = count + 1
-         do i = 1, 3
-            if (cell(:index(cell//" ", " ") - 1) /= trim(merge(columns%key, columns%names(min(i, 2)), i == 3))) cycle
-            places(i) = count
-            if (i == 2 .and. index(cell, "[") > 0) table%unit = cell(index(cell, "[") + 1:index(cell//"]", "]") - 1)
+         opening = index(cell//"[", "[")
+         name = to_lower(cell(:opening - 1))
+         i = index(trim(name), " ")
+         if (i > 0 .and. index(name(:max(i, 1)), "_") > 0) name(i:) = ""
+         do i = 1, len_trim(name)
+            if (name(i:i) == " ") name(i:i) = "_"
          end do
+         if (opening < len(cell)) unit = adjustl(cell(opening + 1:index(cell//"]", "]") - 1))
       end do
-      if (any(places(:2) == 0)) then
-         places = 0
-         table%unit = ""
-         return
-      end if
-      places(4) = count
-      table%columns = columns
-   end subroutine read_heading
+   end subroutine next_cell
+
+   !> The names and units that a heading has, as a heading; blank where there are none.
+   pure subroutine write_heading(table, heading)
+      !> The table
+      type(table_t), intent(in) :: table
+      !> The heading
+      character(len=:), allocatable, intent(out) :: heading
+
+      heading = ""
+      if (table%names(1) == "") return
+      heading = trim(table%names(1))//" ["//trim(table%units(1))//"],"//trim(table%names(2))//" ["//trim(table%units(2))//"]"
+   end subroutine write_heading
 
    !> Read the two numbers of a line.
    subroutine read_row(path, line, number, places, named, row, has_row, mistakes)

@@ -7,7 +7,7 @@ module camroller_value_syntax
    implicit none
    private
 
-   public :: is_number_list, is_quoted, is_yes_or_no
+   public :: is_number_list, is_yes_or_no
 
    !> What parts the values of a list
    character(len=*), parameter :: separators = " ,"//char(9)//char(10)//char(13)
@@ -106,32 +106,6 @@ contains
          verdict = is_number(word) .or. any(to_lower(word(start:)) == no_numbers)
       end if
    end function is_value
-
-   !> Is a text one text in quotes, quotes inside doubled?
-   pure function is_quoted(text) result(verdict)
-      !> The text, without blanks around it
-      character(len=*), intent(in) :: text
-      !> Is it?
-      logical :: verdict
-
-      integer :: place
-
-      verdict = .false.
-      if (len(text) < 2) return
-      if (scan(text(1:1), "'""") == 0) return
-      place = 2
-      do while (place <= len(text))
-         if (text(place:place) == text(1:1)) then
-            if (place == len(text)) then
-               verdict = .true.
-               return
-            end if
-            if (text(place + 1:place + 1) /= text(1:1)) return
-            place = place + 1
-         end if
-         place = place + 1
-      end do
-   end function is_quoted
 
    !> Is a text a logical value?
    pure function is_yes_or_no(text) result(verdict)

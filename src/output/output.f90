@@ -8,7 +8,8 @@
 !> `/summary/status` (case) is 0 or the kind of the error, whose message is in `/run/messages` (case), or -1 for a case that was
 !> not computed;
 !> `/deck/text` is the deck as given, `/deck/overrides` the values given beside it, `/deck/values/<group.key>` what came of
-!> all of them, `/deck/table_<group>` (column, row) the tables that it names; `/sweep/<group.key>` (case) are the keys that vary;
+!> all of them, `/deck/table_<group>` (column, row) the tables that it names, `/deck/table_<group>_<number>` those that its cases
+!> name beside them, counted by the attribute `tables_<group>` of `/deck`; `/sweep/<group.key>` (case) are the keys that vary;
 !> `/effects/<name>` (case) and `/effects/reasons` (case) tell which effects took part, where the deck leaves that to the program;
 !> `/run` has attributes, and `/run/warnings` (case) where there are warnings.
 !> The root has `format`, `format_version`, `axes` and `complete`, which is set last: 1, or 0 in a partial file, which has
@@ -26,13 +27,14 @@ module camroller_output
       & not_computed, not_written, output_t, result_format, start_file
    use camroller_output_cases, only : check_position, create_layout => add_layout, gather_row, write_remark, write_rows, &
       & write_series_row, write_status
-   use camroller_output_facts, only : write_deck, write_deck_table, write_measured, write_overrides, write_run, write_sweep
+   use camroller_output_facts, only : write_deck, write_deck_table, write_measured, write_overrides, write_run, write_sweep, &
+      & write_table_count
    implicit none
    private
 
    public :: output_t, output_options_t, result_format, format_version, not_computed
    public :: open_output, add_layout, write_outcome, close_output, abandon_output
-   public :: write_deck, write_deck_table, write_overrides, write_sweep, write_measured, write_run
+   public :: write_deck, write_deck_table, write_table_count, write_overrides, write_sweep, write_measured, write_run
 
 contains
 

@@ -10,10 +10,11 @@ module camroller_output_facts
    use camroller_hdf5_attribute, only : attach_scale, put_attribute
    use camroller_output_file, only : abandon_output, check_open, number_size, object_size, output_t, text_size
    use camroller_number_text, only : is_number
+   use camroller_quotes, only : without_quotes
    implicit none
    private
 
-   public :: write_deck, write_overrides, write_deck_table, write_sweep, write_measured, write_run
+   public :: write_deck, write_overrides, write_deck_table, write_table_count, write_sweep, write_measured, write_run
 
    !> Values of a swept key: numbers or names
    interface write_sweep
@@ -85,13 +86,13 @@ contains
    end subroutine write_overrides
 
    !> Store a table that the deck names.
-   subroutine write_deck_table(writer, group, path, x, y, error)
+   subroutine write_deck_table(writer, group, path, heading, x, y, error)
       !> The writer
       type(output_t), intent(inout) :: writer
       !> Group of the deck that names it
       character(len=*), intent(in) :: group
-      !> File it is from
-      character(len=*), intent(in) :: path
+      !> File it is from, and names and units of its columns; blank where it has none
+      character(len=*), intent(in) :: path, heading
       !> Its columns [units of the file]
       real(wp), intent(in) :: x(:), y(:)
       !> File error
@@ -108,9 +109,28 @@ contains
          & dataset, error)
       if (.not. allocated(error)) call write_numbers(dataset, 0, columns, error)
       if (.not. allocated(error)) call put_attribute(dataset, "path", path, error)
+      if (.not. allocated(error)) call put_attribute(dataset, "heading", heading, error)
       call close_object(dataset)
       if (allocated(error)) call abandon_output(writer)
    end subroutine write_deck_table
+
+   !> Store how many tables of a group cases name that the deck itself does not; `write_deck_table` stores each.
+   subroutine write_table_count(writer, group, tables, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Group of the deck that names them
+      character(len=*), intent(in) :: group
+      !> Their number
+      integer, intent(in) :: tables
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      call reserve_file(writer%file, object_size, error)
+      if (.not. allocated(error)) call put_attribute(writer%deck, "tables_"//group, tables, error)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_table_count
 
    !> Store facts of the run (program, version, commit, compiler, options, date, command ...) as attributes of `/run`.
    subroutine write_run(writer, names, values, error)
@@ -252,9 +272,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       real(wp) :: number ! [unit of the key]
-      integer :: status, last
+      integer :: status
 
-      last = len(value)
       status = 1
       if (is_number(value)) read (value, *, iostat=status) number
       if (status == 0) then
@@ -264,27 +283,7 @@ contains
       end if
       call create_texts(group, key, [integer ::], dataset, error)
       if (allocated(error)) return
-      if (is_quoted(value)) then
-         call write_text(dataset, [integer ::], value(2:last - 1), error)
-      else
-         call write_text(dataset, [integer ::], value, error)
-      end if
+      call write_text(dataset, [integer ::], without_quotes(value), error)
    end subroutine write_value
-
-   !> Whether a text is one quoted word, not a list of several.
-   pure function is_quoted(text) result(answer)
-      !> The text
-      character(len=*), intent(in) :: text
-      !> True with the same quote at both ends and nowhere between
-      logical :: answer
-
-      integer :: last
-
-      last = len(text)
-      answer = last >= 2
-      if (.not. answer) return
-      answer = scan(text(1:1), """'") == 1 .and. text(last:last) == text(1:1) &
-         & .and. index(text(2:), text(1:1)) == last - 1
-   end function is_quoted
 
 end module camroller_output_facts

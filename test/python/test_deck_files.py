@@ -70,6 +70,38 @@ def test_a_heading_of_a_table_is_skipped(camroller, tmp_path, heading):
     assert result.stdout == check(camroller, tmp_path / "deck.nml").stdout
 
 
+@pytest.mark.parametrize(("heading", "words"), [
+    ("cam_angle [deg], valve_lift [mm]\n", ""), ("Cam angle [deg];Valve lift [mm]\n", ""), ("cam_angle [deg] valve_lift [mm]\n", ""),
+    ("phi [deg], h [furlong]\n", ""), ("cam_angle valve_lift\n", ""),
+    ("cam_angle [rad], valve_lift [mm]\n", "'rad', not angles in degrees"), ("phi [rad] s [mm]\n", "'rad', not angles in degrees"),
+    ("crank_angle [deg], lift [mm]\n", "'crank_angle', not cam_angle in its first column"),
+    ("Crank angle; lift\n", "'crank_angle', not cam_angle in its first column"),
+    ("cam_angle [deg], roller_lift [mm]\n", "'roller_lift', not valve_lift in its second column"),
+    ("polar_angle [deg], cam_radius [mm]\n", "'polar_angle', not cam_angle in its first column"),
+    ("angle, lift [um]\n", "'um', not 'mm'"), ("cam_angle, valve_lift [m]\n", "'m', not 'mm'"),
+])
+def test_a_heading_that_says_something_else_than_the_deck_is_refused(camroller, tmp_path, heading, words):
+    result, _ = check_table(camroller, tmp_path, heading + ROWS)
+    assert result.returncode == (DECK if words else 0), result.stderr
+    assert (f"the heading of the table has {words}" in result.stderr) == bool(words)
+    assert result.stderr.count("the heading of the table") == bool(words)
+
+
+@pytest.mark.parametrize(("heading", "words"), [
+    ("cam_angle [deg], pressure [bar]\n", ""), ("angle, p\n", ""), ("cam_angle [deg], pressure [MPa]\n", "'MPa', not 'bar'"),
+    ("crank_angle [deg], pressure [bar]\n", "'crank_angle', not cam_angle in its first column"),
+    ("cam_angle, valve_lift\n", "'valve_lift', not pressure in its second column")])
+def test_a_heading_of_a_table_of_pressure_is_checked(camroller, tmp_path, heading, words):
+    shutil.copytree(ROOT / "decks/tables", tmp_path / "tables")
+    shutil.copy(ROOT / "decks/three_cam_head.nml", tmp_path / "deck.nml")
+    (table,) = (tmp_path / "tables").glob("*pressure*")
+    rows = [line for line in table.read_text().splitlines(keepends=True) if line[:1] in "0123456789- "]
+    table.write_text(heading + "".join(rows))
+    result = check(camroller, tmp_path / "deck.nml")
+    assert result.returncode == (DECK if words else 0), result.stderr
+    assert (f"the heading of the table has {words}" in result.stderr) == bool(words)
+
+
 @pytest.mark.parametrize(("table", "line", "words"), [
     ("nan nan\n" + ROWS, 1, "'nan' is no finite number"),
     ("inf 0\n" + ROWS, 1, "'inf' is no finite number"),

@@ -1,5 +1,6 @@
 """Files computed again from what is stored in them."""
 
+import re
 import shutil
 
 import h5py
@@ -7,7 +8,7 @@ import pytest
 
 from sweeps import ROOT, done, run, write_deck
 
-FILE, DIFFERENCE = 6, 7
+USAGE, FILE, DIFFERENCE = 2, 6, 7
 
 
 @pytest.fixture(scope="module")
@@ -57,6 +58,81 @@ def test_a_table_of_cases_is_in_the_file(camroller, tmp_path):
     done(camroller, "sweep", deck, "--quiet", folder=tmp_path)
     table.unlink()
     assert "2 cases are the same to the last bit" in done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout
+
+
+def write_swept_tables(folder):
+    """A deck whose cases name tables, one of them with an apostrophe, and one that is not there."""
+    text = (ROOT / "decks/tabulated_lift.nml").read_text().partition("&sweep")[0]
+    (folder / "tables").mkdir()
+    table = (ROOT / "decks/tables/polynomial_lift.txt").read_text()
+    (folder / "tables/polynomial_lift.txt").write_text(table)
+    (folder / "tables/it's.txt").write_text("cam_angle [deg], valve_lift [mm]\n" + table)
+    (folder / "deck.nml").write_text(text + """&output angle_step_deg = 20 /
+&numerics accuracy = 1e-3 /
+&sweep key_1 = 'lift.table' values_1 = 'tables/polynomial_lift.txt', 'tables/it''s.txt', 'tables/none.txt'
+   key_2 = 'operating_point.speed_rpm' values_2 = 300, 600 /
+""")
+    return folder / "deck.nml"
+
+
+def test_tables_of_cases_are_in_the_file(camroller, tmp_path):
+    """What is in the folder does not matter: neither the tables, which have changed, nor one that was not there."""
+    assert run(camroller, "sweep", write_swept_tables(tmp_path), "-o", "x.h5", "--quiet", folder=tmp_path).returncode == 3
+    for name in ("it's.txt", "none.txt"):
+        (tmp_path / "tables" / name).write_text("0 0\n")
+    assert "6 cases are the same to the last bit" in done(camroller, "rerun", "x.h5", folder=tmp_path).stdout
+    shutil.rmtree(tmp_path / "tables")
+    assert "6 cases are the same to the last bit" in done(camroller, "rerun", "x.h5", folder=tmp_path).stdout
+    with h5py.File(tmp_path / "x.h5") as file:
+        assert [name.decode() for name in file["sweep/lift.table"][::2]] == ["tables/polynomial_lift.txt", "tables/it's.txt",
+                                                                           "tables/none.txt"]
+        assert file["deck"].attrs["tables_lift"] == 2 and "table_lift_2" not in file["deck"]
+
+
+def test_a_file_without_the_tables_of_its_cases_is_refused(camroller, tmp_path):
+    run(camroller, "sweep", write_swept_tables(tmp_path), "-o", "x.h5", "--quiet", folder=tmp_path)
+    with h5py.File(tmp_path / "x.h5", "r+") as file:
+        del file["deck"].attrs["tables_lift"]
+    result = run(camroller, "rerun", "x.h5", folder=tmp_path)
+    assert result.returncode == FILE
+    assert "'x.h5' does not hold 'tables/it's.txt', a table that cases name in 'lift.table', and cannot be computed again" in result.stderr
+
+
+def test_cases_without_a_result_now_are_told_with_their_message(camroller, folder, tmp_path):
+    shutil.copy(folder / "deck.h5", tmp_path / "changed.h5")
+    with h5py.File(tmp_path / "changed.h5", "r+") as file:
+        text = file["deck/text"][()].decode()
+        assert "pivot_to_cam_mm" in text
+        del file["deck/text"]
+        file["deck/text"] = re.sub(r"pivot_to_cam_mm *= *[0-9.]+", "pivot_to_cam_mm = 60", text)
+    result = run(camroller, "rerun", "changed.h5", folder=tmp_path)
+    assert result.returncode == DIFFERENCE
+    assert "  4 cases have no result now, first case 0: case 0 (operating_point.speed_rpm=300): " in result.stderr
+
+
+def test_a_file_with_an_apostrophe_in_its_name(camroller, tmp_path):
+    (tmp_path / "cases.csv").write_text("operating_point.speed_rpm\n300\n400\n")
+    done(camroller, "sweep", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.csv'"), "-o", "it's.h5", "--quiet",
+         "--set", "case.title=it's", folder=tmp_path)
+    assert "2 cases are the same to the last bit" in done(camroller, "rerun", "it's.h5", folder=tmp_path).stdout
+    with h5py.File(tmp_path / "it's.h5") as file:
+        assert file["deck/values/case.title"][()].decode() == "it's"
+
+
+@pytest.mark.parametrize("command, options, words", [
+    ("study", ["--quick"], "with a table in /study and no cases that could be exported or computed again; 'python post/plot_study.py'"),
+    ("audit", ["--repeats", 1], "with a table in /study and no cases that could be exported or computed again; 'python post/plot_audit.py'"),
+    ("ehl", ["--set", "output.angle_step_deg=40"], "with solved contacts in /ehl and no series and scalars that could be exported"),
+])
+def test_files_of_other_commands_are_told_apart(camroller, tmp_path, command, options, words):
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 300")
+    done(camroller, command, deck, "-o", "x.h5", "--quiet", *options, folder=tmp_path)
+    for arguments in (["export", "x.h5"], ["export", "x.h5", "--summary"], *([] if command == "ehl" else [["rerun", "x.h5"]])):
+        result = run(camroller, *arguments, folder=tmp_path)
+        assert result.returncode == USAGE and result.stdout == ""
+        assert f"'x.h5' is a file of 'camroller {command}', {words}" in result.stderr
+    if command == "ehl":
+        assert "1 case is the same to the last bit" in done(camroller, "rerun", "x.h5", folder=tmp_path).stdout
 
 
 def test_profiles_are_compared(camroller, tmp_path):
