@@ -19,7 +19,8 @@ module camroller_sweep
    use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text
    use camroller_output_kind, only : result_kind
-   use camroller_part_file, only : close_part, find_parts, open_part, part_beginning, part_name, sync_part
+   use camroller_part_file, only : close_part, find_parts, is_being_written, open_part, part_beginning, part_name, &
+      & sync_part
    use camroller_part_scan, only : index_t, study_facts_t
    use camroller_part_sink, only : part_sink_t
    use camroller_result_claim, only : remove_left_lock
@@ -243,12 +244,19 @@ contains
       type(line_t), allocatable :: paths(:)
       type(earlier_t) :: earlier
       character(len=:), allocatable :: own
+      integer :: i
 
       own = part_name(study%path, options%shard, options%shards)
       study%runs%first = [integer ::]
       study%runs%count = [integer ::]
       call find_parts(study%path, own, paths)
       if (size(paths) > 0 .and. .not. options%is_resumed) then
+         do i = 1, size(paths)
+            if (.not. is_being_written(paths(i)%text)) cycle
+            call raise(error, kind_file, "another process is writing '"//paths(i)%text//"': a sweep of '"//study%path// &
+               & "' is running; wait for its end, or name another file by -o")
+            return
+         end do
          call raise(error, kind_file, "'"//paths(1)%text//"' exists from a sweep that was stopped; continue it with "// &
             & "--resume, or remove "//own//"*")
          return

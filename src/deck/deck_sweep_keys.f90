@@ -1,17 +1,20 @@
 !> Keys of the group &sweep: what a study varies, and how it is run.
 !>
-!> In: a schema. Out: the same with the group in it.
+!> In: a schema. Out: the same with the group in it. In: settings and the sweep. Out: mistakes in its choice of series.
 module camroller_deck_sweep_keys
    use camroller_kinds, only : wp
+   use camroller_deck_complaint, only : complain, demand
+   use camroller_mistakes, only : mistakes_t
    use camroller_names, only : name_length
    use camroller_deck_schema, only : schema_t, add_group, add_integer, add_integers, add_name, add_number, add_text, &
       & add_words, anything, from_to, group_effect, not_negative, positive
-   use camroller_deck_sweep, only : most_cases, scale_names, sweep_kind_names
-   use camroller_number_text, only : integer_text
+   use camroller_deck_sweep, only : most_cases, scale_names, sweep_kind_names, sweep_size, sweep_t
+   use camroller_number_text, only : counted, integer_text
+   use camroller_settings, only : get_word, settings_t, take
    implicit none
    private
 
-   public :: add_sweep_keys, sweep_key_count
+   public :: add_sweep_keys, check_series, sweep_key_count
 
    !> Keys that one sweep can vary without a table
    integer, parameter :: sweep_key_count = 8
@@ -42,6 +45,30 @@ contains
       call add_number(schema, "checkpoint_s", not_negative, "interval at which 'camroller sweep' flushes its "// &
          & "results to disk", default=30.0_wp)
    end subroutine add_sweep_keys
+
+   !> Are there the cases whose series are wanted?
+   subroutine check_series(settings, sweep, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      integer, allocatable :: cases(:)
+      integer :: i
+
+      if (get_word(settings, "sweep", "series") == "chosen") call demand(settings, "sweep", "series_cases", "series = 'chosen'", &
+         & mistakes)
+      allocate (cases(0))
+      call take(settings, "sweep", "series_cases", cases)
+      do i = 1, size(cases)
+         if (cases(i) < sweep_size(sweep)) cycle
+         call complain(mistakes, settings, "sweep", "series_cases", "there is no case "//integer_text(cases(i))// &
+            & ": the sweep has "//counted(sweep_size(sweep), "case")//", the first is 0")
+         return
+      end do
+   end subroutine check_series
 
    !> Keys that vary, and their values.
    subroutine add_axis_keys(schema)

@@ -8,7 +8,7 @@ module camroller_deck_sweep_read
    use camroller_samples, only : sobol_axes
    use camroller_deck_schema, only : schema_t, type_number, type_integer, type_numbers, type_integers, type_words
    use camroller_deck_text, only : to_lower
-   use camroller_deck_sweep_keys, only : sweep_key_count
+   use camroller_deck_sweep_keys, only : check_series, sweep_key_count
    use camroller_deck_values, only : has_empty_place, next_word, longest_text
    use camroller_settings, only : settings_t, take, is_known, is_wrong, get_word, has_group
    use camroller_deck_complaint, only : complain, complain_about_group
@@ -58,6 +58,7 @@ contains
       end if
       if (mistakes%count == 0) call refuse_idle_axes(settings, sweep, mistakes)
       if (mistakes%count == 0) call check_shape(settings, sweep, mistakes)
+      if (mistakes%count == 0) call check_series(settings, sweep, mistakes)
    end subroutine read_sweep
 
    !> Keys with lists and ranges.

@@ -12,14 +12,14 @@ module camroller_part_file
    use camroller_mistakes, only : line_t
    use camroller_part_scan, only : entry_t, head_words, index_t, kind_head, kind_layout, longest_record, mark, &
       & scan_file, study_facts_t
-   use camroller_raw_file, only : raw_file_t, open_raw, append_words, read_words, cut_raw, find_files, sync_raw, close_raw, &
-      & word_size
+   use camroller_raw_file, only : raw_file_t, open_raw, append_words, read_words, cut_raw, find_files, is_locked, sync_raw, &
+      & close_raw, word_size
    use camroller_record, only : record_t, checksum, clear_record, put_integer, put_text
    implicit none
    private
 
    public :: part_t, open_part, append_layout, append_record, sync_part, close_part, scan_part, read_record
-   public :: part_beginning, part_name, find_parts
+   public :: part_beginning, part_name, find_parts, is_being_written
 
    !> Bytes that messages call a megabyte
    integer(int64), parameter :: megabyte = 1000000_int64
@@ -107,6 +107,23 @@ contains
       verdict = verdict .and. word(1) == mark + kind_head
       call close_raw(file)
    end function is_part
+
+   !> Does another process write a part file?
+   function is_being_written(path) result(verdict)
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> Does it?
+      logical :: verdict
+
+      type(raw_file_t) :: file
+      type(error_t), allocatable :: error
+
+      verdict = .false.
+      call open_raw(file, path, .false., error)
+      if (allocated(error)) return
+      verdict = is_locked(file)
+      call close_raw(file)
+   end function is_being_written
 
    !> Open a part file to append to: a new one, or one that is there up to its last whole record.
    subroutine open_part(part, path, facts, error)

@@ -121,11 +121,11 @@ def test_check_of_a_million_cases_checks_some_of_them(camroller, deck):
     assert ", of which 10000 were checked" in result.stdout
 
 
-@pytest.mark.parametrize("command", ["run", "sweep"])
+@pytest.mark.parametrize("command", ["run", "sweep", "check"])
 def test_set_of_a_swept_key_gives_a_message(camroller, deck, tmp_path, command):
     result = done(camroller, command, deck, "--set", "operating_point.speed_rpm=350", "--set", "roller.mass_kg=0.009", folder=tmp_path)
     assert [line for line in result.stderr.splitlines() if "is not used" in line] == [
-        "remark: 'operating_point.speed_rpm=350' is not used, since &sweep varies operating_point.speed_rpm"]
+        "remark: 'operating_point.speed_rpm=350' is not used by the sweep, which varies operating_point.speed_rpm"]
 
 
 def test_shards_change_no_bit(camroller, deck, reference, tmp_path):
@@ -175,6 +175,8 @@ def test_merge_partial_has_the_cases_computed_so_far(camroller, deck, reference,
         torque = file["summary/mean_torque_drive"][()]
         assert numpy.isnan(torque[:8]).all()
         assert torque[8:16].tobytes() == whole["summary/mean_torque_drive"][8:16].tobytes()
+    other = run(camroller, "export", "deck.h5", "--case", 3, folder=tmp_path)
+    assert other.returncode == USAGE and "case 3 has no series, it was not computed: the file is partial" in other.stderr
 
 
 def test_time_limit_and_resume(camroller, deck, reference, tmp_path):
@@ -275,6 +277,11 @@ def test_series_of_chosen_cases(camroller, deck, tmp_path):
             assert some["series"][name][17].tobytes() == values[17].tobytes()
             assert numpy.isnan(some["series"][name][4]).all()
         assert some["series/contact_load"].chunks == (1, 36)
+    kept = done(camroller, "export", "some.h5", "--case", 17, folder=tmp_path)
+    assert kept.stdout == done(camroller, "export", "all.h5", "--case", 17, folder=tmp_path).stdout
+    other = run(camroller, "export", "some.h5", "--case", 4, folder=tmp_path)
+    assert other.returncode == USAGE and other.stdout == ""
+    assert "the series of case 4 were not kept: a sweep keeps those that 'sweep.series' and 'sweep.series_cases' say" in other.stderr
 
 
 def test_texts_and_names_can_be_swept(camroller, tmp_path):
@@ -314,6 +321,24 @@ def test_samples_are_those_of_the_seed(camroller, tmp_path):
                 assert sorted((16 * place).astype(int)) == list(range(16))
                 assert law.count(b"moes") == 8
     assert len(set(found.values())) == 6
+
+
+def test_a_measured_column_keeps_its_name_beside_a_scalar_of_that_name(camroller, tmp_path):
+    """A table with semicolons, as many programs write them, and a measured quantity that is computed as well."""
+    (tmp_path / "cases.csv").write_text('operating_point.speed_rpm;"measured.mean_torque_friction [N mm]";film.law\n'
+                                        "600;0.41;'moes'\n900;-;'dowson_higginson'\n")
+    done(camroller, "sweep", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.csv'"), "--quiet", folder=tmp_path)
+    lines = done(camroller, "export", "deck.h5", "--summary", folder=tmp_path).stdout.splitlines()
+    names, units, first = (line.split(",") for line in lines[:3])
+    assert names.count("measured.mean_torque_friction") == names.count("mean_torque_friction") == 1
+    place = names.index("measured.mean_torque_friction")
+    assert units[place] == "N mm" and float(first[place]) == 0.41
+    lines = done(camroller, "export", "deck.h5", "--summary", "--columns", "mean_torque_friction", folder=tmp_path).stdout.splitlines()
+    assert lines[0] == "case,operating_point.speed_rpm,film.law,mean_torque_friction" and lines[1].endswith(",N m")
+    assert float(lines[2].split(",")[3]) != 0.41
+    lines = done(camroller, "export", "deck.h5", "--summary", "--columns", "measured.mean_torque_friction",
+                 folder=tmp_path).stdout.splitlines()
+    assert lines[0] == "case,operating_point.speed_rpm,film.law,measured.mean_torque_friction" and float(lines[2].split(",")[3]) == 0.41
 
 
 MEASURED = """operating_point.speed_rpm  "measured.torque [N m]"  measured.run
@@ -373,6 +398,9 @@ def test_a_result_is_a_table_of_its_cases(camroller, deck, reference, tmp_path):
     ("key_1 = 'film.law' from_1 = 1 to_1 = 2 count_1 = 2", "takes names, which have no range"),
     ("key_1 = 'numerics.max_cycles' from_1 = 1 to_1 = 4 count_1 = 3", "takes whole numbers"),
     ("key_1 = 'roller.mass_kg' from_1 = 0 to_1 = 4 count_1 = 3 scale_1 = 'logarithmic'", "needs ends above zero"),
+    ("key_1 = 'operating_point.speed_rpm' values_1 = 300, 400 series = 'chosen'", "series = 'chosen' needs 'series_cases'"),
+    ("key_1 = 'operating_point.speed_rpm' values_1 = 300, 400 series = 'chosen' series_cases = 1, 100",
+     "there is no case 100: the sweep has 2 cases, the first is 0"),
 ])
 def test_invalid_sweeps_are_refused(camroller, tmp_path, sweep, words):
     (tmp_path / "bad.csv").write_text("# two columns\noperating_point.speed_rpm, film.law\n300\n")
@@ -429,7 +457,17 @@ def test_two_processes_do_not_write_one_part(camroller, deck, tmp_path):
     while not parts(tmp_path):
         time.sleep(0.001)
     second = run(camroller, "sweep", big, "--resume", folder=tmp_path)
+    third = run(camroller, "sweep", big, folder=tmp_path)
     os.kill(first.pid, signal.SIGKILL)
     first.wait()
-    assert second.returncode == FILE
-    assert "another process is writing" in second.stderr
+    for result in (second, third):
+        assert result.returncode == FILE
+        assert "another process is writing 'deck.h5.part-rank-0'" in result.stderr
+    assert "a sweep of 'deck.h5' is running" in third.stderr and "stopped" not in third.stderr
+    assert "exists from a sweep that was stopped" in run(camroller, "sweep", big, folder=tmp_path).stderr
+
+
+def test_a_folder_that_is_not_there_is_named(camroller, deck, tmp_path):
+    result = run(camroller, "sweep", deck, "-o", "none/x.h5", folder=tmp_path)
+    assert result.returncode == FILE
+    assert result.stderr == "camroller: cannot write 'none/x.h5': there is no folder 'none/'\n"
