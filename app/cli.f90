@@ -5,12 +5,15 @@ module camroller_cli
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_command_table, only : command_t, find_command, find_option, list_commands
    use camroller_deck, only : override_t, add_override
+   use camroller_deck_text, only : to_lower
    use camroller_export, only : export_formats
    use camroller_mistakes, only : add_line, line_t
    use camroller_kinds, only : wp
    use camroller_near_names, only : nearest_name
    use camroller_names, only : write_names, index_of_name
-   use camroller_number_text, only : integer_text
+   use camroller_number_text, only : integer_text, is_number
+   use camroller_option_values, only : read_positive, read_shard, read_whole_number
+   use camroller_quotes, only : in_quotes, is_quoted
    implicit none
    private
 
@@ -31,7 +34,7 @@ module camroller_cli
       type(override_t), allocatable :: overrides(:)
       !> How often each option of the command was given, in the order of its table
       integer, allocatable :: given(:)
-      !> Keys that a point has a value of, as `group.key=`
+      !> Keys that a point has a value of, as `group.key` in small letters
       type(line_t), allocatable :: point_keys(:)
       !> Say nothing but errors?
       logical :: is_quiet = .false.
@@ -148,6 +151,7 @@ contains
          end if
          call check_together(command, config, error)
          if (.not. allocated(error)) call check_values(config, error)
+         if (.not. allocated(error)) call check_output(command, config, error)
       end associate
    end subroutine read_arguments
 
@@ -194,25 +198,69 @@ contains
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: i, k, found
+      character(len=:), allocatable :: values, value
+      logical, allocatable :: are_of_key(:)
+      integer :: i, k
 
       do i = 1, size(config%overrides)
-         if (.not. config%has_no_sweep .or. index(adjustl(config%overrides(i)%text), "sweep.") /= 1) cycle
+         if (.not. config%has_no_sweep .or. index(key_of(config%overrides(i)%text), "sweep.") /= 1) cycle
          call raise(error, kind_usage, "'"//config%overrides(i)%text//"' is of &sweep, which '--point' and '--no-sweep' "// &
             & "leave out"//see(config))
          return
       end do
       do k = 1, size(config%point_keys)
          associate (key => config%point_keys(k)%text)
-            found = count([(index(config%overrides(i)%text, key) == 1, i=1, size(config%overrides))])
-            if (found < 2) cycle
-            call raise(error, kind_usage, "'"//key(:len(key) - 1)//"' has "//integer_text(found)//" values, and a point takes "// &
-               & "one; several are a sweep: --set sweep.key_1="//key(:len(key) - 1)//" --set sweep.values_1=VALUE,VALUE"// &
-               & see(config))
+            are_of_key = [(key_of(config%overrides(i)%text) == key, i=1, size(config%overrides))]
+            if (count(are_of_key) < 2) cycle
+            values = ""
+            do i = 1, size(config%overrides)
+               if (.not. are_of_key(i)) cycle
+               value = trim(adjustl(config%overrides(i)%text(index(config%overrides(i)%text, "=") + 1:)))
+               if (.not. (is_number(value) .or. is_quoted(value))) value = in_quotes(value)
+               if (values /= "") values = values//", "
+               values = values//value
+            end do
+            call raise(error, kind_usage, "'"//key//"' has "//integer_text(count(are_of_key))//" values, and a point takes one"// &
+               & "; several are a sweep, of a deck with the group &sweep key_1 = '"//key//"' values_1 = "//values// &
+               & " / and without '--point'"//see(config))
             return
          end associate
       end do
    end subroutine check_values
+
+   !> The key of a value given beside the deck, in small letters, without blanks.
+   pure function key_of(text) result(key)
+      !> As `group.key=value`
+      character(len=*), intent(in) :: text
+      !> As `group.key`
+      character(len=:), allocatable :: key
+
+      integer :: i
+
+      key = ""
+      do i = 1, index(text//"=", "=") - 1
+         if (text(i:i) /= " ") key = key//to_lower(text(i:i))
+      end do
+   end function key_of
+
+   !> An error where a file to be written would have no name, or that of the standard streams.
+   subroutine check_output(command, config, error)
+      !> The command
+      type(command_t), intent(in) :: command
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (find_option(command, "--output") == 0 .or. config%command == "export" .or. config%is_laws) return
+      if (config%output == "-") then
+         call raise(error, kind_usage, "'"//config%command//"' does not write to the standard output: give a name by -o FILE"// &
+            & see(config))
+      else if (config%subject == "-" .and. config%output == "") then
+         call raise(error, kind_usage, "a deck from the standard input has no name that a file could take: give one by "// &
+            & "-o FILE"//see(config))
+      end if
+   end subroutine check_output
 
    !> The first word.
    subroutine read_command(arguments, names, config, error)
@@ -333,7 +381,7 @@ contains
       case ("--log-every")
          call read_whole_number(option, value, "a time in whole seconds", see(config), 0, huge(1), config%log_interval, error)
       case ("--shard")
-         call read_shard(value, see(config), config, error)
+         call read_shard(value, see(config), config%shard, config%shards, error)
       case ("--resume")
          config%is_resumed = .true.
       case ("--partial")
@@ -362,7 +410,7 @@ contains
          text = value
          if (index(value, ".") == 0 .or. index(value, ".") > max(1, index(value, "="))) text = "operating_point."//value
          call add_override(config%overrides, text)
-         if (index(text, "=") > 0) call add_line(config%point_keys, text(:index(text, "=")))
+         if (index(text, "=") > 0) call add_line(config%point_keys, key_of(text))
       case ("--no-sweep")
          config%has_no_sweep = .true.
       case ("--laws")
@@ -394,6 +442,8 @@ contains
          if (option == "--draw-lift") config%lift_drawing = value
          if (option == "--cam") config%cam_table = value
          if (value == "") call raise(error, kind_usage, "option '"//option//"' needs the name of a file"//see(config))
+         if (option /= "--cam" .and. has_other_ending(value, ".svg")) call raise(error, kind_usage, "option '"//option// &
+            & "' writes SVG: '"//value//"' has another ending than .svg"//see(config))
          if (value /= "" .and. count([config%drawing == value, config%lift_drawing == value, config%cam_table == value]) > 1) then
             call raise(error, kind_usage, "two options name the same file, '"//value//"'"//see(config))
          end if
@@ -401,75 +451,21 @@ contains
 
    end subroutine set_option_of_looking
 
-   !> A speed above zero.
-   subroutine read_positive(option, value, advice, number, error)
-      !> The option, its word, where to read more
-      character(len=*), intent(in) :: option, value, advice
-      !> Gets the number [any]
-      real(wp), intent(inout) :: number
-      !> Usage error
-      type(error_t), allocatable, intent(out) :: error
+   !> Does the name of a file end as that of another kind of file?
+   pure function has_other_ending(path, ending) result(verdict)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> The ending of its kind, with the point
+      character(len=*), intent(in) :: ending
+      !> Does it?
+      logical :: verdict
 
-      ! Largest speed that is taken [any]
-      real(wp), parameter :: largest = 1.0e5_wp
-      ! The number read [any]
-      real(wp) :: found
-      integer :: status
+      integer :: point
 
-      status = 1
-      found = 0.0_wp
-      if (verify(value, "0123456789.eE+-") == 0 .and. len(value) > 0) read (value, *, iostat=status) found
-      if (status == 0 .and. found > 0.0_wp .and. found <= largest) then
-         number = found
-         return
-      end if
-      call raise(error, kind_usage, "option '"//option//"' takes a speed above 0 and up to 100000, not '"//value//"'"//advice)
-   end subroutine read_positive
-
-   !> A whole number within bounds.
-   subroutine read_whole_number(option, value, meaning, advice, smallest, largest, number, error)
-      !> The option, its word, what it takes, where to read more
-      character(len=*), intent(in) :: option, value, meaning, advice
-      !> Bounds
-      integer, intent(in) :: smallest, largest
-      !> Gets the number
-      integer, intent(inout) :: number
-      !> Usage error
-      type(error_t), allocatable, intent(out) :: error
-
-      integer :: status, found
-
-      status = 1
-      found = smallest
-      if (verify(value, "0123456789") == 0 .and. len(value) > 0) read (value, *, iostat=status) found
-      if (status == 0 .and. found >= smallest .and. found <= largest) then
-         number = found
-         return
-      end if
-      call raise(error, kind_usage, "option '"//option//"' takes "//meaning//", not '"//value//"'"//advice)
-   end subroutine read_whole_number
-
-   !> A part of a sweep, as `2/4`.
-   subroutine read_shard(value, advice, config, error)
-      !> The word
-      character(len=*), intent(in) :: value
-      !> Where to read more
-      character(len=*), intent(in) :: advice
-      !> Gets the part
-      type(config_t), intent(inout) :: config
-      !> Usage error
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=*), parameter :: meaning = "a shard and the number of shards, as 2/4"
-      integer :: slash
-
-      slash = index(value, "/")
-      call read_whole_number("--shard", value(:max(slash - 1, 0)), meaning, advice, 1, huge(1), config%shard, error)
-      if (.not. allocated(error)) then
-         call read_whole_number("--shard", value(slash + 1:), meaning, advice, config%shard, huge(1), config%shards, error)
-      end if
-      if (allocated(error)) call raise(error, kind_usage, "option '--shard' takes "//meaning//", not '"//value//"'"//advice)
-   end subroutine read_shard
+      point = index(path, ".", back=.true.)
+      verdict = point > index(path, "/", back=.true.) + 1
+      if (verdict) verdict = to_lower(path(point:)) /= ending
+   end function has_other_ending
 
    !> Where to read more.
    pure function see(config) result(words)

@@ -8,6 +8,7 @@ module camroller_ehl_command
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
    use camroller_hdf5_columns, only : hdf5_columns_t
+   use camroller_console, only : tell_deck_remarks
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_ehl_converged, only : fewest_nodes, integrate_converged
@@ -54,6 +55,7 @@ contains
       call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
+      if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call find_place(config, deck, result_kind, "_ehl.h5", path, error)
       if (allocated(error)) return
       call make_sweep_case(deck, 1, case, error)

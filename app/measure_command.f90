@@ -9,6 +9,7 @@ module camroller_measure_command
    use camroller_audit_page, only : write_audit_page
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
+   use camroller_command_table, only : command_t, find_command, find_option, list_commands
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, drop_sweep, make_case, make_sweep_case, override_t, read_deck
    use camroller_deck_sweep, only : sweep_size, case_in_words
@@ -19,10 +20,10 @@ module camroller_measure_command
    use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_output_kind, only : result_kind
-   use camroller_console, only : console_t, seconds_since, start_console
+   use camroller_console, only : console_t, seconds_since, start_console, tell_deck_remarks
    use camroller_run_command, only : check_cases, find_place
    use camroller_run_facts, only : write_facts
-   use camroller_streams, only : print_lines
+   use camroller_streams, only : print_lines, tell
    use camroller_study, only : new_study_table, study_case, study_film
    use camroller_study_file, only : write_study, close_study
    use camroller_study_page, only : write_study_page
@@ -53,7 +54,9 @@ contains
 
       if (config%is_laws) then
          call read_deck(deck, config%subject, config%overrides, error, columns)
-         if (.not. allocated(error)) call show_laws(deck, error)
+         if (allocated(error)) return
+         call tell_deck_remarks(deck)
+         call show_laws(deck, error)
       else
          call measure_deck(config, merge(of_film, of_accuracy, config%is_film), error)
       end if
@@ -115,6 +118,7 @@ contains
       if (.not. allocated(error)) call start_limits(search, case, config%seating_speed, minute*config%highest_speed, &
          & minute*min(config%speed_step, config%highest_speed), error)
       if (allocated(error)) return
+      if (.not. (config%is_quiet .or. search%is_flexible)) call tell_unused_options(config)
       call start_console(progress, config%is_quiet)
       do while (search%is_open)
          call try_speed(search)
@@ -124,6 +128,23 @@ contains
       call write_limits_page(search, text)
       call print_lines(text, error)
    end subroutine limit_deck
+
+   !> Say which options are of no use for a rigid train.
+   subroutine tell_unused_options(config)
+      !> What to do
+      type(config_t), intent(in) :: config
+
+      type(command_t), allocatable :: commands(:)
+      character(len=*), parameter :: options(*) = [character(len=9) :: "--to", "--step", "--seating"]
+      integer :: i
+
+      call list_commands(commands)
+      do i = 1, size(options)
+         if (config%given(find_option(commands(find_command(commands, config%command)), trim(options(i)))) == 0) cycle
+         call tell("remark: "//trim(options(i))//" is not used: the limits of a train without &dynamics follow from its forces"// &
+            & new_line("a"))
+      end do
+   end subroutine tell_unused_options
 
    !> Measure every case of a deck.
    subroutine measure_deck(config, what, error)
@@ -146,6 +167,7 @@ contains
       call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
+      if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call find_place(config, deck, result_kind, trim(endings(what)), path, error)
       if (allocated(error)) return
       call start_console(progress, config%is_quiet)

@@ -52,7 +52,6 @@ contains
       call add_number_remarks(deck, error)
       if (allocated(error)) return
       if (config%has_no_sweep) call drop_sweep(deck)
-      if (.not. config%is_quiet) call tell_unused_values(deck)
       if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call check_cases(deck, error)
       if (allocated(error)) return
@@ -83,7 +82,6 @@ contains
       if (.not. allocated(error)) call read_deck(deck, config%subject, config%overrides, error, columns)
       call add_number_remarks(deck, error)
       if (agreed_code(team, error) /= 0) return
-      if (team%rank == 0 .and. .not. config%is_quiet) call tell_unused_values(deck)
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_deck_remarks(deck)
       call start_console(console, config%is_quiet .or. team%rank /= 0, real(config%log_interval, wp))
       console%heeds_signals = .true.
@@ -124,23 +122,6 @@ contains
       options%is_resumed = config%is_resumed
       options%is_partial = config%is_partial
    end function options_of
-
-   !> Say which values given beside the deck are not used, since the sweep varies their keys.
-   subroutine tell_unused_values(deck)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-
-      integer :: i, j
-
-      do i = 1, size(deck%overrides)
-         do j = 1, size(deck%sweep%axes)
-            associate (key => deck%sweep%axes(j)%key, text => deck%overrides(i)%text)
-               if (trim(adjustl(text(:index(text, "=") - 1))) /= key) cycle
-               call tell("remark: '"//text//"' is not used, since &sweep varies "//key//new_line("a"))
-            end associate
-         end do
-      end do
-   end subroutine tell_unused_values
 
    !> Do the values of every case go together?
    subroutine check_cases(deck, error)

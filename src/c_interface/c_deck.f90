@@ -8,6 +8,7 @@ module camroller_c_deck
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case, drop_sweep
    use camroller_deck_document, only : given_numbers
    use camroller_deck_remarks, only : list_deck_remarks
+   use camroller_deck_text, only : to_lower
    use camroller_deck_sweep, only : sweep_size, sweep_overrides, get_sweep_value, case_in_words
    use camroller_mistakes, only : line_t
    use camroller_c_case, only : case_handle_t
@@ -203,7 +204,7 @@ contains
          count = 0
          do i = 1, size(deck%overrides)
             ! Those of the sweep go with it
-            if (index(adjustl(deck%overrides(i)%text), "sweep.") == 1) cycle
+            if (index(to_lower(adjustl(deck%overrides(i)%text)), "sweep.") == 1) cycle
             count = count + 1
             overrides(count) = deck%overrides(i)
          end do

@@ -8,6 +8,7 @@ module camroller_deck_remarks
    use camroller_number_text, only : number_text, is_number
    use camroller_mistakes, only : add_line, line_t, shown
    use camroller_text_list, only : text_at
+   use camroller_deck_text, only : to_lower
    use camroller_deck_schema, only : key_length, key_t, range_t, type_number, type_numbers
    use camroller_deck_values, only : read_value, value_t
    use camroller_deck_meant, only : ask_kinematic, is_usual, say_meant
@@ -63,7 +64,27 @@ contains
       call remark_lift(deck%settings, "lift", deck%tables%lift, remarks)
       call remark_lift(deck%settings, "second_lift", deck%tables%second_lift, remarks)
       call remark_pressure(deck%settings, deck%tables%pressure, remarks)
+      call remark_unused(deck, remarks)
    end subroutine list_deck_remarks
+
+   !> Values given beside the deck that no case of the sweep has, since it varies their keys.
+   subroutine remark_unused(deck, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: i, k
+
+      do i = 1, size(deck%overrides)
+         do k = 1, size(deck%sweep%axes)
+            associate (key => deck%sweep%axes(k)%key, text => deck%overrides(i)%text)
+               if (to_lower(trim(adjustl(text(:index(text, "=") - 1)))) /= to_lower(key)) cycle
+               call add_line(remarks, "'"//shown(text)//"' is not used by the sweep, which varies "//key)
+            end associate
+         end do
+      end do
+   end subroutine remark_unused
 
    !> Remarks on the single numbers of a deck and on single rows of its tables of lift, as far as they could be read.
    subroutine list_number_remarks(deck, remarks)

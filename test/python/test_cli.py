@@ -75,6 +75,15 @@ def test_version_is_printed(camroller):
     (["sweep", "x", "--shard", "3/2"], "option '--shard' takes a shard and the number of shards, as 2/4, not '3/2'"),
     (["run", "x", "--point", "speed_rpm=600", "--point", "speed_rpm=900"], "'operating_point.speed_rpm' has 2 values, and a point takes"),
     (["run", "x", "--point", "speed_rpm=600", "-s", "operating_point.speed_rpm=900"], "'operating_point.speed_rpm' has 2 values"),
+    (["run", "x", "--point", "speed_rpm=600", "--set", "Operating_point.Speed_RPM =700"], "'operating_point.speed_rpm' has 2 values"),
+    (["run", "x", "--point", "film.law=moes", "--point", "Film.law='pan_hamrock'"],
+     "of a deck with the group &sweep key_1 = 'film.law' values_1 = 'moes', 'pan_hamrock' / and without '--point'"),
+    (["run", "x", "--no-sweep", "--set", "Sweep.values_1=900"], "'Sweep.values_1=900' is of &sweep, which '--point' and '--no-sweep' "),
+    (["run", "-"], "a deck from the standard input has no name that a file could take: give one by -o FILE"),
+    (["sweep", "-", "--quiet"], "a deck from the standard input has no name that a file could take: give one by -o FILE"),
+    (["run", "x", "-o", "-"], "'run' does not write to the standard output: give a name by -o FILE"),
+    (["check", "x", "--draw", "a.png"], "option '--draw' writes SVG: 'a.png' has another ending than .svg"),
+    (["check", "x", "--draw-lift", "a.b/x.svg.pdf"], "option '--draw-lift' writes SVG: 'a.b/x.svg.pdf' has another ending than .svg"),
     (["run", "x", "--no-sweep", "--set", "sweep.values_1=900"], "'sweep.values_1=900' is of &sweep, which '--point' and '--no-sweep' "),
     (["check", "x", "--point", "speed_rpm=600", "--set", " sweep.kind=zip"], "is of &sweep, which '--point' and '--no-sweep' leave out"),
     (["study", "x", "--laws", "--film"], "'study' does not take '--laws' together with '--film'; see 'camroller help study'"),
@@ -177,3 +186,22 @@ def test_a_load_of_any_size_is_printed_as_a_number(camroller):
     assert "lifts the valve off its seat" in message
     message = refused(run(camroller, "check", "decks/thesis.nml", "--set", "spring.precompression_mm=0.01"), DECK)
     assert "holds 0." in message
+
+
+def test_the_advice_for_two_points_is_a_sweep(camroller, tmp_path):
+    """What the message says is put into a deck as it stands there."""
+    deck = (ROOT / "decks/thesis.nml").read_text().partition("&sweep")[0]
+    (tmp_path / "deck.nml").write_text(deck)
+    message = refused(run(camroller, "check", tmp_path / "deck.nml", "--point", "speed_rpm=600", "--point", "speed_rpm=900"), USAGE)
+    (tmp_path / "deck.nml").write_text(deck + "&sweep" + message.partition("&sweep")[2].partition(" and without")[0] + "\n")
+    result = run(camroller, "check", tmp_path / "deck.nml")
+    assert result.returncode == 0, result.stderr
+    assert " is valid: 2 cases over 2 of operating_point.speed_rpm" in result.stdout
+
+
+def test_limits_of_a_rigid_train_say_which_options_they_do_not_use(camroller):
+    result = run(camroller, "limit", "decks/thesis.nml", "--to", "3000", "--seating", "0.4")
+    assert result.returncode == 0, result.stderr
+    assert [line for line in result.stderr.splitlines() if "is not used" in line] == [
+        f"remark: {option} is not used: the limits of a train without &dynamics follow from its forces" for option in ("--to", "--seating")]
+    assert "is not used" not in run(camroller, "limit", "decks/thesis.nml").stderr

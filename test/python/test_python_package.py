@@ -31,8 +31,8 @@ answers["unit"] = rows[0][1].units["mean_torque_friction"]
 case = camroller.Case(deck, set={"operating_point.speed_rpm": 600, "film.law": "moes"})
 answers["set"] = case.run().scalars["mean_torque_friction"].hex()
 answers["number"] = case.numbers["operating_point.speed_rpm"]
-answers["no_remark"] = case.remarks
-answers["remark"] = camroller.Case(deck, set={"roller.mass_kg": 5.0}).remarks
+answers["swept_remark"] = case.remarks
+answers["remark"] = camroller.Case(deck, set={"roller.mass_kg": 5.0, "case.title": "it's"}).remarks
 errors = {}
 for name, text in {"deck": "&lift law = 3 /", "line": "\\n\\n&nothing a = 1 /"}.items():
     try:
@@ -127,7 +127,8 @@ def test_results_have_the_bits_of_the_program(answers, cmake_io_prefix, tmp_path
     with h5py.File(tmp_path / "one.h5") as file:
         assert float.fromhex(answers["set"]) == np.asarray(file["summary/mean_torque_friction"]).item()
     assert answers["number"] == 600.0
-    assert answers["no_remark"] == [] and [text.split()[0] for text in answers["remark"]] == ["roller.mass_kg"]
+    assert answers["swept_remark"] == ["'operating_point.speed_rpm=600' is not used by the sweep, which varies operating_point.speed_rpm"]
+    assert [text.split()[0] for text in answers["remark"]] == ["roller.mass_kg"]
 
 
 def test_errors_are_exceptions_with_the_line_of_the_deck(answers):

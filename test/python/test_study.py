@@ -36,6 +36,15 @@ def done(camroller, tmp_path_factory):
     return folder / "one_study.h5", result.stdout
 
 
+@pytest.mark.parametrize("words", [["--quick", "--repeats", "1", "--set", "output.angle_step_deg=20"], ["--laws"]])
+def test_a_value_that_the_sweep_varies_has_a_remark(camroller, tmp_path, words):
+    (tmp_path / "deck.nml").write_text(THESIS[:THESIS.index("&sweep")]
+                                       + "&sweep key_1 = 'operating_point.speed_rpm' values_1 = 300 /\n")
+    result = study(camroller, "deck.nml", *words, "--set", "Operating_point.speed_rpm=600", folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert "remark: 'Operating_point.speed_rpm=600' is not used by the sweep, which varies operating_point.speed_rpm\n" in result.stderr
+
+
 def test_the_table_is_printed(done):
     lines = done[1].splitlines()
     assert lines[0].startswith("Largest errors over all cases")
