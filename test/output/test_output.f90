@@ -76,7 +76,7 @@ contains
       if (.not. allocated(error)) call check(error, number, 1)
       if (.not. allocated(error)) call check_text(error, file, "/deck/text", "", "&case"//new_line("a")//"/")
       if (.not. allocated(error)) call check_text(error, file, "/deck/values/film.law", "", "moes")
-      if (.not. allocated(error)) call check_text(error, file, "/deck/values/case.title", "", "'it''s'")
+      if (.not. allocated(error)) call check_text(error, file, "/deck/values/case.title", "", "it's")
       if (.not. allocated(error)) call check_text(error, file, "/deck/values/masses.a_kg", "given", "default")
       if (.not. allocated(error)) call check_text(error, file, "/deck/values/masses.a_kg", "units", "kg")
       if (.not. allocated(error)) call check_number(error, file, "/deck/values/masses.a_kg", [integer ::], 0.25_wp)

@@ -148,7 +148,7 @@ def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
     ("three_cam_head", "", ["cam_bearings.cam_positions_mm=24,24,124"], ["cams 1 and 2 are 0 mm apart"]),
     ("three_cam_head", "", ["cam_bearings.cam_positions_mm=24,38,124"], []),
     ("four_cylinder", "", ["cam_bearings.cam_cylinders=1,1,1,1,2,2,2,2"], ["2 cylinders of 4 without a cam"]),
-    ("four_cylinder", "", ["operating_point.speed_rpm=7000", "lubricant.hths_viscosity_mPa_s=3"], []),
+    ("four_cylinder", "", ["operating_point.speed_rpm=7000", "lubricant.hths_viscosity_mPa_s=3"], ["speed_rpm=7000' is not used by the sweep"]),
     ("four_cylinder", "", ["lubricant.viscosity_at_40_degC_mm2_s=16", "lubricant.hths_viscosity_mPa_s=3.9"],
      ["16 mm^2/s at 40 degC and 11 at 100 degC are unusual: a viscosity index above 300"]),
 ])
