@@ -27,8 +27,8 @@ module camroller_deck_remarks
 
    public :: list_deck_remarks, list_number_remarks
 
-   !> Digits of numbers in sentences
-   integer, parameter :: digits = 6
+   !> Digits of numbers in sentences, and as many as give every number back
+   integer, parameter :: digits = 6, all_digits = 17
    !> Above this temperature no engine oil is thicker than that [K], [Pa s]
    real(wp), parameter :: warm = 293.15_wp, thickest_warm = 2.0_wp
    !> HTHS over the viscosity without shear by the law [-]. Smallest: SAE J300 (2021) allows 3.7 mPa s for grade 60, whose 26 mm^2/s
@@ -195,6 +195,22 @@ contains
       end if
    end function has_default
 
+   !> Does a key take a value? One that it refuses has a mistake, and needs no remark.
+   function is_taken(key, text) result(verdict)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The value
+      character(len=*), intent(in) :: text
+      !> Does it?
+      logical :: verdict
+
+      type(value_t) :: value
+      character(len=:), allocatable :: reason
+
+      call read_value(key, text, value, reason)
+      verdict = .not. allocated(reason)
+   end function is_taken
+
    !> Values of a key that varies.
    subroutine remark_axis(key, name, axis, remarks)
       !> The key
@@ -213,13 +229,14 @@ contains
 
       before = size(remarks)
       if (axis%values%count == 0) then
-         call remark_number(key, name, axis%first, remarks)
-         if (size(remarks) == before) call remark_number(key, name, axis%last, remarks)
+         if (is_taken(key, number_text(axis%first, all_digits))) call remark_number(key, name, axis%first, remarks)
+         if (size(remarks) > before) return
+         if (is_taken(key, number_text(axis%last, all_digits))) call remark_number(key, name, axis%last, remarks)
          return
       end if
       do i = 1, axis%values%count
          word = text_at(axis%values, i)
-         if (.not. is_number(word)) cycle
+         if (.not. (is_number(word) .and. is_taken(key, word))) cycle
          read (word, *, iostat=status) number
          if (status == 0) call remark_number(key, name, number, remarks)
          if (size(remarks) > before) return

@@ -422,3 +422,11 @@ def test_what_is_constant_has_no_error_over_its_range(camroller, tmp_path):
     result = subprocess.run([camroller, "run", deck, "--no-sweep", "-o", tmp_path / "a.h5"], cwd=ROOT, capture_output=True, text=True,
                             check=False)
     assert result.returncode == 0 and "extremes did not reach" not in result.stderr, result.stderr
+
+
+@pytest.mark.parametrize("sweep", ["values_1 = 300, 1e9", "from_1 = 300 to_1 = 1e9 count_1 = 3"])
+def test_a_swept_value_that_is_refused_has_no_remark(camroller, tmp_path, sweep):
+    text = (ROOT / "decks/thesis.nml").read_text().partition("&sweep")[0]
+    (tmp_path / "deck.nml").write_text(f"{text}&sweep key_1 = 'operating_point.speed_rpm' {sweep} /\n")
+    done = subprocess.run([camroller, "check", tmp_path / "deck.nml"], capture_output=True, text=True, check=False)
+    assert done.returncode == 3 and "'speed_rpm' must be from " in done.stderr and "unusual" not in done.stderr
