@@ -7,11 +7,11 @@ module camroller_axial_setup
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_kinematics, only : linkage_t, position_t, evaluate_position
    use camroller_lift, only : lift_law_t, evaluate_lift
-   use camroller_roller_profile, only : roller_profile_t
+   use camroller_roller_profile, only : coupling_half_space, coupling_names, roller_profile_t
    implicit none
    private
 
-   public :: set_axial
+   public :: set_axial, coupled_width
 
    !> Largest equivalent radius over the length of the roller: beyond it the load is spread as there [-]
    real(wp), parameter :: largest_radius = 20.0_wp
@@ -19,6 +19,20 @@ module camroller_axial_setup
    integer, parameter :: step = 2
 
 contains
+
+   !> Width of the slices that move each other; huge where there are none.
+   pure function coupled_width(profile, length) result(width)
+      !> What the case says
+      type(roller_profile_t), intent(in), allocatable :: profile
+      !> Length of the contact [m]
+      real(wp), intent(in) :: length
+      !> The width [m]
+      real(wp) :: width
+
+      width = huge(1.0_wp)
+      if (.not. allocated(profile)) return
+      if (profile%coupling == coupling_names(coupling_half_space)) width = length/profile%slices
+   end function coupled_width
 
    !> Make the table of a case, or none.
    subroutine set_axial(axial, profile, has_numerical_film, linkage, lift_law, length, modulus, error)

@@ -6,6 +6,7 @@ module camroller_run
    use camroller_error, only : error_t, add_context, kind_convergence, cause_unknown
    use camroller_accuracy, only : is_checked, first_numerics, most_refinements, refine_tolerance, resolve_numerics, &
       & second_method, way_out
+   use camroller_axial_setup, only : coupled_width
    use camroller_run_remarks, only : judge, judge_slices, judge_wear
    use camroller_catalogue, only : list_series
    use camroller_case, only : case_t, numerics_t, automatic_method
@@ -215,7 +216,9 @@ contains
             & earlier%statistics, with_series, result, error)
          if (allocated(error)) return
       end if
-      if (allocated(case%roller_profile)) call judge_slices(case%roller_profile, case%mechanism%contact_width, result)
+      associate (length => case%mechanism%contact_width)
+         call judge_slices(coupled_width(case%roller_profile, length), length, result)
+      end associate
       call judge(case%numerics, result, error)
    end subroutine run_listed
 

@@ -12,7 +12,6 @@ module camroller_run_remarks
    use camroller_remarks, only : add_remark, deep_wear, idle_roller, loose_tolerance, missed_accuracy, missed_extremes, &
       & missed_means, narrow_slices, no_period
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
-   use camroller_roller_profile, only : coupling_half_space, coupling_names, roller_profile_t
    implicit none
    private
 
@@ -69,20 +68,16 @@ contains
    end subroutine judge_turns
 
    !> Say that slices of the roller are narrower than the theory of slender contacts allows.
-   subroutine judge_slices(profile, length, result)
-      !> Profile of the roller
-      type(roller_profile_t), intent(in) :: profile
-      !> Length of the contact [m]
-      real(wp), intent(in) :: length
+   subroutine judge_slices(width, length, result)
+      !> Width of a slice, length of the contact [m]
+      real(wp), intent(in) :: width, length
       !> The result; gets the remark
       type(result_t), intent(inout) :: result
 
-      ! Width of a slice, largest half width of the contact [m]
-      real(wp) :: width, half_width
+      ! Largest half width of the contact [m]
+      real(wp) :: half_width
       integer :: lobe, place
 
-      if (profile%coupling /= coupling_names(coupling_half_space)) return
-      width = length/profile%slices
       do lobe = 1, size(result%summary)
          place = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"hertz_half_width")
          if (place == 0) exit
