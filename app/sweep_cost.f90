@@ -16,6 +16,7 @@ module camroller_sweep_cost
    use camroller_ehl_record, only : ehl_record_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_console, only : time_in_words
+   use camroller_remarks, only : remark_lines
    use camroller_result, only : result_t
    use camroller_run, only : run_case
    use camroller_settings, only : get_word, take
@@ -41,6 +42,8 @@ module camroller_sweep_cost
       logical :: is_estimated = .false.
       !> Numbers of a case with and without series and profiles
       integer :: words_with_series = 0, words = 0
+      !> Remarks of a case, in the mean [byte]
+      real(wp) :: remarks = 0.0_wp
    end type cost_t
 
 contains
@@ -56,7 +59,8 @@ contains
       character(len=:), allocatable :: series
       integer, allocatable :: chosen(:)
       integer :: cases, cores
-      real(wp) :: space ! [byte]
+      ! Of the sweep, with the series of every case [byte]
+      real(wp) :: space, space_with_series
 
       series = get_word(deck%settings, "sweep", "series")
       call try_cases(deck, series == "all" .or. series == "chosen", cost)
@@ -67,16 +71,17 @@ contains
       if (cost%is_estimated) text = text//", with a larger tolerance"
       text = text//": "//number_text(1.0e3_wp*cost%time, 3)//" ms each, "//time_in_words(cost%time*cases)// &
          & " for all in one thread, "//time_in_words(cost%time*cases/cores)//" in "//integer_text(cores)//new_line("a")
-      space = number_size*real(cost%words, wp)*cases
-      if (series == "all") space = number_size*real(cost%words_with_series, wp)*cases
+      space = (number_size*cost%words + cost%remarks)*cases
+      space_with_series = (number_size*cost%words_with_series + cost%remarks)*cases
+      if (series == "all") space = space_with_series
       if (series == "chosen") then
          allocate (chosen(0))
          call take(deck%settings, "sweep", "series_cases", chosen)
          space = space + number_size*real(cost%words_with_series - cost%words, wp)*size(chosen)
       end if
-      text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on disk at most "// &
+      text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on disk about "// &
          & megabytes(space)//" in parts while it runs, and as much again for the result file at the end"//new_line("a")
-      text = text//"! 'camroller run' writes about "//megabytes(number_size*real(cost%words_with_series, wp)*cases)// &
+      text = text//"! 'camroller run' writes about "//megabytes(space_with_series)// &
          & " with the series of every case, 'camroller sweep' about "//megabytes(space)//new_line("a")
    end subroutine cost_in_words
 
@@ -131,12 +136,14 @@ contains
          else
             cost%words = case_words(result, .false.)
             cost%words_with_series = case_words(result, .true., profiles)
+            cost%remarks = cost%remarks + len(remark_lines(result%remarks))
          end if
          call cpu_time(now)
          cost%time = cost%time + (now - before)*(resolved(1)%tolerance/resolved(2)%tolerance)**(1.0_wp/order)
          if (now - start > longest_trial) exit
       end do
       cost%time = cost%time/cost%trials
+      cost%remarks = cost%remarks/cost%trials
    end subroutine try_cases
 
    !> Most memory that this process has had so far, where the system tells.

@@ -87,6 +87,15 @@ def test_check_tells_the_margins_without_friction_from_the_load_with_it(camrolle
     assert told and int(told[1]) > 300, text
 
 
+def test_check_foretells_the_size_of_a_sweep(camroller, tmp_path):
+    speeds = "sweep.values_1=" + ",".join(str(300 + i) for i in range(400))
+    text = run(camroller, "check", "decks/thesis.nml", "--set", speeds, "--set", "sweep.values_2=60,95").stdout
+    foretold = float(re.search(r"on disk about ([\d.]+) MB in parts while it runs, and as much again", text)[1])
+    run(camroller, "sweep", "decks/thesis.nml", "--set", speeds, "--set", "sweep.values_2=60,95", "-o", tmp_path / "s.h5", "-q")
+    # two digits, nine of 800 cases, and 30 kB of deck and names
+    assert (tmp_path / "s.h5").stat().st_size == pytest.approx(1e6 * foretold, rel=0.12)
+
+
 def test_check_says_where_a_bearing_law_is_outside_its_range(camroller):
     text = run(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
     assert "width over diameter 0.87, law 'long_full_sommerfeld', which is for bearings wider than 2 diameters; 'finite'" in text
