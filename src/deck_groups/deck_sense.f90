@@ -341,7 +341,7 @@ contains
 
       if (.not. any(varied == key) .or. any(varied == "lubricant.temperature_law")) return
       if (get_word(settings, "lubricant", "temperature_law") /= "direct") return
-      call add_line(remarks, key//" varies "//trim(merge("and not the oil's viscosity", "without effect             ", &
+      call add_line(remarks, key//" varies "//trim(merge("but not the oil's viscosity", "without effect             ", &
          & is_known(settings, "lubricant", "pressure_viscosity_points_per_GPa") .or. &
          & any([(has_group(settings, trim(users(i))), i=1, size(users))])))//": lubricant.temperature_law is 'direct', one "// &
          & "viscosity at all temperatures")

@@ -98,7 +98,7 @@ contains
       if (allocated(margins%pivot)) margins%pivot%speed = infinite_if_huge(margins%pivot%speed)
    end subroutine find_margins
 
-   !> Smallest force between the closed valve and its seat, at angles half a degree apart: pressures are tables of whole degrees.
+   !> Smallest force between the closed valve and its seat, at angles as far apart as those of a scan.
    function seat_margin(model) result(margin)
       !> The model, with gas
       type(model_t), intent(in) :: model

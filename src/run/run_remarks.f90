@@ -26,6 +26,8 @@ module camroller_run_remarks
    !> Width of a slice over the largest half width of the contact below which the contact is computed too soft: from there on its
    !> largest pressure is more than one per cent below that of Hertz' ellipse (measured for crowns of 0.1 to 0.5 m) [-]
    real(wp), parameter :: narrowest_slice = 0.8_wp
+   !> Part of the slices that this contact allows which a remark advises: with fewer slices it is a little wider [-]
+   real(wp), parameter :: advised_part = 0.95_wp
 
 contains
 
@@ -85,7 +87,7 @@ contains
          if (width >= narrowest_slice*half_width) cycle
          call add_named(result, lobe, narrow_slices, "slices of the roller are "//number_text(1.0e3_wp*width, 3)// &
             & " mm wide and the contact is up to "//number_text(1.0e3_wp*half_width, 3)//" mm half wide: so narrow slices make "// &
-            & "it too soft; take "//integer_text(int(0.95_wp*length/(narrowest_slice*half_width)))//" at most "// &
+            & "it too soft; take "//integer_text(int(advised_part*length/(narrowest_slice*half_width)))//" at most "// &
             & "(roller_profile.slices)", half_width/width)
       end do
    end subroutine judge_slices

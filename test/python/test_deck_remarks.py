@@ -198,7 +198,7 @@ def test_temperatures_without_effect_give_a_remark(camroller):
     text = (ROOT / "decks/thesis.nml").read_text() + "&friction_modifier coefficient = 0.05 coverage = 0.5 reference_temperature_degC = 60 adsorption_heat_kJ_mol = 60 /\n"
     done = subprocess.run([camroller, "check", "-", *(word for value in direct for word in ("--set", value))], input=text,
                           capture_output=True, text=True, cwd=ROOT / "decks", check=True)
-    assert "oil_temperature_degC varies and not the oil's viscosity: lubricant.temperature_law is 'direct'" in done.stderr
+    assert "oil_temperature_degC varies but not the oil's viscosity: lubricant.temperature_law is 'direct'" in done.stderr
 
 
 def test_a_pressure_below_a_vacuum_gives_a_remark(camroller, tmp_path):
