@@ -21,7 +21,7 @@ from cycle_reference import DEGREE, Train
 from mechanism import base_angle, closed_form, thesis_geometry
 
 AMBIENT, POLYTROPIC = 1e5, 1.4
-INTEGRALS = ('drive', 'contact', 'needle', 'guide', 'damping', 'gallery', 'leak', 'float', 'tension')
+INTEGRALS = ('drive', 'contact', 'needle', 'guide', 'damping', 'gallery', 'leak', 'float')
 
 
 @dataclass(frozen=True)
@@ -327,7 +327,7 @@ class Point:
         e.rigid = rigid
         e.coils = sum(i * math.pi * abs(u) for i, u in enumerate(q, 1)) / (x + t.precompression)
         rates[self.size:] = [omega * (W * h_N + T1 * h_F + 2 * F_r * R), F_t * V_s + F_r * (2 * V_c - V_s), T_B * omega_rel,
-                             self.guide * xd * xd, damping, e.gallery, e.Q_l, float(rigid > 0 and W <= 0), float(e.joint < 0)]
+                             self.guide * xd * xd, damping, e.gallery, e.Q_l, float(rigid > 0 and W <= 0)]
         return rates, e
 
     def slope(self, theta, state):
@@ -337,7 +337,7 @@ class Point:
         one = [1e-5 / self.g.A, 0.1 / self.g.A, 1e-5, 0.1, 0.01]
         if self.f.adjuster:
             one += [1e-5, 0.1, 1e6]
-        return np.array(one + [1e-4, 0.3] * self.f.modes + [0.1, 0.01, 0.01, 0.01, 0.01, 0.1, 1e-9, 1.0, 1.0])
+        return np.array(one + [1e-4, 0.3] * self.f.modes + [0.1, 0.01, 0.01, 0.01, 0.01, 0.1, 1e-9, 1.0])
 
     def turn(self, state, tolerance, method='Radau', watch=None):
         edge = self.g.lift.half_angle
@@ -377,7 +377,7 @@ class Point:
         m = {f'mean_{name}': o[name] / (2 * math.pi) for name in ('drive', 'contact', 'needle', 'guide', 'damping', 'gallery')}
         m['loss'] = sum(m[f'mean_{name}'] for name in ('contact', 'needle', 'guide', 'damping'))
         turn = 2 * math.pi / self.omega
-        m['leak_volume'], m['float_share'], m['tension_share'] = o['leak'], o['float'] / turn, o['tension'] / turn
+        m['leak_volume'], m['float_share'] = o['leak'], o['float'] / turn
         top = self.g.lift.height
         rows = []
         for begin, end_, run in watch:
@@ -391,6 +391,9 @@ class Point:
                 rows.append((place, e.W, e.rigid, s[2], s[3], e.joint, mode, e.coils, e.check, *plunger))
         r = np.array(rows).T
         place, W, rigid, x, xd, joint, q1, coils, check, y, p = r
+        # Part of each interval in which a straight line between its ends is below zero
+        pull, size = np.maximum(-joint, 0.0), np.abs(joint)
+        m['tension_share'] = np.sum(np.diff(place) * (pull[1:] + pull[:-1]) / (size[1:] + size[:-1])) / (2 * math.pi)
         i = np.argmax(W)
         m.update(load_max=W[i], load_max_angle=place[i] / DEGREE, load_min=W[rigid >= 0.25 * top].min(), lift_error_min=(x - rigid).min(),
                  lift_error_max=(x - rigid).max(), joint_min=joint.min(), surge=self.t.stiffness * math.pi * q1.max(), coils=coils.max(),
