@@ -393,7 +393,8 @@ class Point:
         place, W, rigid, x, xd, joint, q1, coils, check, y, p = r
         # Part of each interval in which a straight line between its ends is below zero
         pull, size = np.maximum(-joint, 0.0), np.abs(joint)
-        m['tension_share'] = np.sum(np.diff(place) * (pull[1:] + pull[:-1]) / (size[1:] + size[:-1])) / (2 * math.pi)
+        below = (pull[1:] + pull[:-1]) / np.maximum(size[1:] + size[:-1], np.finfo(float).tiny)
+        m['tension_share'] = np.sum(np.diff(place) * below) / (2 * math.pi)
         i = np.argmax(W)
         m.update(load_max=W[i], load_max_angle=place[i] / DEGREE, load_min=W[rigid >= 0.25 * top].min(), lift_error_min=(x - rigid).min(),
                  lift_error_max=(x - rigid).max(), joint_min=joint.min(), surge=self.t.stiffness * math.pi * q1.max(), coils=coils.max(),
