@@ -52,9 +52,10 @@ counted: commit ## the program without -flto, whose procedures valgrind can tell
 mpi: build ## the program for many nodes, where Open MPI is there: build/mpi/bin/camroller-mpi
 	@tools/build_mpi.sh
 
+# -fno-lto: of the machine code in the library, which takes a second; without it the whole library would be optimised again
 example: build ## run example/library/two_cases.f90, which uses camroller as a library: EXAMPLE=many_cases for the other one
 	@mkdir -p build/example
-	@gfortran $(OPTIMISED_FLAGS) -Jbuild/example -Ibuild/release/include -o build/example/$(or $(EXAMPLE),two_cases) \
+	@gfortran $(OPTIMISED_FLAGS) -fno-lto -Jbuild/example -Ibuild/release/include -o build/example/$(or $(EXAMPLE),two_cases) \
 	  example/library/$(or $(EXAMPLE),two_cases).f90 -Lbuild/release/lib -lcamroller $$(pkg-config --libs hdf5) \
 	  -lhdf5_fortran -lhdf5_hl -lhdf5hl_fortran -lopenblas -fopenmp
 	@build/example/$(or $(EXAMPLE),two_cases)
