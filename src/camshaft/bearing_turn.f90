@@ -2,8 +2,9 @@
 !>
 !> In: a solved case. Out: the same with these in its shaft, where the case asks for them. Or in: the load on one bearing
 !> over the turn, from wherever. Out: its temperature, orbit, and means.
-!> The temperature of a bearing's oil is the root of `T = T_supply + rise(T)`: friction falls and the flow of oil rises with the
-!> temperature, so that there is one, between that of the supply and the rise that would follow there.
+!> The temperature of a bearing's oil is the first root of `T = T_supply + rise(T)` above that of the supply. Where an oil film
+!> bears, friction falls and the flow of oil rises with the temperature: there is one root, below the rise that would follow at the
+!> supply's temperature. Where asperities rub, friction rises with the temperature, and the root lies higher.
 module camroller_bearing_turn
    use camroller_kinds, only : wp, degree, two_pi
    use camroller_bearing_asperity, only : bearing_state_t, carry_load
@@ -228,8 +229,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(bracket_t) :: bracket
-      ! Rise less the one that follows from it, at both ends and between; the higher end [K]
-      real(wp) :: low, high, miss, last
+      ! Both ends; rise less the one that follows from it, there and between [K]
+      real(wp) :: first, last, low, high, miss
 
       call check_bearing_heat(heat, shaft%bearings, error)
       if (allocated(error)) return
@@ -239,11 +240,19 @@ contains
       end if
       call try_rise(0.0_wp, low)
       if (allocated(error)) return
+      first = 0.0_wp
       last = min(-low, largest_rise)
       call try_rise(last, high)
+      do while (.not. allocated(error) .and. high < -turn%rise_tolerance .and. last < largest_rise)
+         first = last
+         low = high
+         last = min(first + 2.0_wp*min(-low, largest_rise), largest_rise)
+         call try_rise(last, high)
+      end do
       if (allocated(error)) return
-      call start_bracket(bracket, 0.0_wp, last, low, max(high, merge(0.0_wp, high, last < largest_rise)), &
-         & turn%rise_tolerance)
+      ! Without a change of friction the rise that follows at the supply's temperature is the root, up to rounding
+      if (abs(high) <= turn%rise_tolerance) high = 0.0_wp
+      call start_bracket(bracket, first, last, low, high, turn%rise_tolerance)
       do while (bracket%status == root_wanted)
          call try_rise(bracket%trial, miss)
          if (allocated(error)) return
@@ -251,7 +260,8 @@ contains
       end do
       if (bracket%status /= root_found) then
          call raise(error, kind_domain, "the oil of a camshaft bearing would be more than 200 K warmer than its supply: "// &
-            & "hardly any leaves a bearing that bears so little; lower bearing_heat.oil_share, or leave &bearing_heat out")
+            & "hardly any leaves a bearing that bears so little, or asperities rub the more the warmer it is; lower "// &
+            & "bearing_heat.oil_share, or leave &bearing_heat out")
          return
       end if
       turn%rise = bracket%trial
