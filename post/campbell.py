@@ -19,6 +19,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 from matplotlib.colors import LogNorm  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 import numpy as np  # noqa: E402
 
@@ -29,6 +30,7 @@ from turns import turns_of  # noqa: E402
 SPEED = "operating_point.speed_rpm"
 SHOWN = 3  # decades of force
 RAYS = range(6, 31, 2)
+OUTLINE = [withStroke(linewidth=1.5, foreground="#404040")]  # of white words on bright places
 
 
 def mode_force(result):
@@ -91,11 +93,13 @@ def draw_map(figure, axes, result, order, speed):
     figure.colorbar(mesh, ax=axes, label="harmonics of the modes' force [N]")
     for n, natural in enumerate(frequencies, 1):
         axes.axhline(natural, color="white", linestyle="--", linewidth=0.9)
-        axes.annotate(f"mode {n}", (speed[0], natural), xytext=(4, 3), textcoords="offset points", color="white")
+        axes.annotate(f"mode {n}", (speed[0], natural), xytext=(4, 3), textcoords="offset points", color="white",
+                      path_effects=OUTLINE)
     for ray in RAYS:
         axes.plot(speed, ray * speed / 60.0, color="white", linestyle=":", linewidth=0.6)
         if ray * speed[-1] / 60.0 < top:
-            axes.annotate(str(ray), (speed[-1], ray * speed[-1] / 60.0), xytext=(-14, -3), textcoords="offset points", color="white")
+            axes.annotate(str(ray), (speed[-1], ray * speed[-1] / 60.0), xytext=(-14, -3), textcoords="offset points", color="white",
+                          path_effects=OUTLINE)
     axes.set_ylim(0.0, top)
     axes.set_ylabel("frequency [Hz]")
 

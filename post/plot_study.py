@@ -64,7 +64,7 @@ def work_precision(table):
     panels = [("error_sliding_speed", 1, "processor time of a run [ms]", 1e3),
               ("error_mean_friction", 1, "processor time of a run [ms]", 1e3)]
     if not np.isnan(table["evaluations"][table["status"] == 0]).any():
-        panels.append(("error_sliding_speed", 2, "evaluations of the roller equation", 1.0))
+        panels.append(("error_sliding_speed", 2, "evaluations of the equations of motion", 1.0))
     figure = Figure(figsize=(1.6 + 4.2 * len(panels), 4.6), layout="constrained")
     grid = figure.subplots(1, len(panels))
     for axes, (error, column, words, factor) in zip(grid, panels):
