@@ -251,7 +251,8 @@ contains
       if (status(1) > 0.0_wp) then
          call read_text(file, "/run/messages", [case], message, error)
          if (.not. allocated(error)) then
-            call raise(error, kind_usage, "case "//integer_text(case)//" has no series, it failed: "//message)
+            ! The message names its case
+            call raise(error, kind_usage, "no series of a case that failed: "//message)
          end if
       else if (nint(status(1)) == not_computed) then
          call raise(error, kind_usage, "case "//integer_text(case)//" has no series, it was not computed: the file is partial")

@@ -103,7 +103,7 @@ contains
       call write_samples(raised)
       call export_csv(sample_path(), export_series, 2, scratch_path("none.csv"), raised)
       call remove_file(sample_path())
-      call expect_error(error, raised, kind_usage, "case 2 has no series, it failed: no period")
+      call expect_error(error, raised, kind_usage, "no series of a case that failed: no period")
    end subroutine failed_case_is_told
 
    subroutine incomplete_file_is_told(error)
