@@ -43,7 +43,7 @@ contains
       call judge_period(model, solution, speed, remarks)
       call judge_lift(model, solution, speed, remarks)
       if (lost_share > 0.0_wp) then
-         text = "cam and roller lose contact "//number_text(solution%mean(losses_of_contact), 3)//" times per cycle, for "// &
+         text = "cam and roller lose contact "//trim(times_text(solution%mean(losses_of_contact)))//" per cycle, for "// &
             & number_text(100.0_wp*lost_share, 3)//" % of it, at "//speed
          if (model%stops_without_contact .and. model%flexible%lash <= 0.0_wp) then
             call raise(error, kind_domain, text//" (contact_policy = 'stop')")
@@ -58,8 +58,8 @@ contains
             & "; the model keeps it closed, a real one opens", -solution%lowest(smallest_pivot_force))
       end if
       if (solution%highest(bounces) > 0.0_wp) then
-         call add_remark(remarks, bouncing_valve, "the valve bounces "//number_text(solution%mean(bounces), 3)// &
-            & " times per cycle, by up to "//number_text(1.0e6_wp*solution%highest(bounce_height), 3)//" um, after meeting its "// &
+         call add_remark(remarks, bouncing_valve, "the valve bounces "//trim(times_text(solution%mean(bounces)))// &
+            & " per cycle, by up to "//number_text(1.0e6_wp*solution%highest(bounce_height), 3)//" um, after meeting its "// &
             & "seat at up to "//number_text(solution%highest(seating_speed), 3)//" m/s, at "//speed, &
             & solution%highest(seating_speed))
       end if
@@ -176,6 +176,17 @@ contains
             & "loses lift and meets its seat early", sink)
       end associate
    end subroutine judge_plunger
+
+   !> How often something happens, in words.
+   pure function times_text(count) result(text)
+      !> Mean number of times [-]
+      real(wp), intent(in) :: count
+      !> The words
+      character(len=20) :: text
+
+      text = number_text(count, 3)//" times"
+      if (text == "1 times") text = "once"
+   end function times_text
 
    !> Remark on a cycle that does not repeat itself, or only after several turns.
    subroutine judge_period(model, solution, speed, remarks)

@@ -1,5 +1,6 @@
 !> Remarks on a result as a whole: an accuracy that was not reached, a tolerance that says nothing of the error, a motion without a
-!> period; a roller that does not turn, slices of it that are too narrow, wear that would change the cam.
+!> period; a roller that does not turn, slices of it that are too narrow, wear that would change the cam, a rigid train that would
+!> vibrate.
 !>
 !> In: numerics as given, the result of a case. Out: remarks, or an error where nothing of the result can be right.
 module camroller_run_remarks
@@ -10,12 +11,12 @@ module camroller_run_remarks
    use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
    use camroller_remarks, only : add_remark, deep_wear, idle_roller, loose_tolerance, missed_accuracy, missed_extremes, &
-      & missed_means, narrow_slices, no_period
+      & missed_means, narrow_slices, no_period, shaken_train
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
 
-   public :: judge, judge_slices, judge_wear
+   public :: judge, judge_slices, judge_stiffness, judge_wear
 
    !> Slip over a turn of the cam beyond which a roller does not roll: those of engines slip by some per cent, and by half on their
    !> base circle alone; one that makes less than a tenth of its turns is a sliding follower [-]
@@ -28,6 +29,9 @@ module camroller_run_remarks
    real(wp), parameter :: narrowest_slice = 0.8_wp
    !> Part of the slices that this contact allows which a remark advises: with fewer slices it is a little wider [-]
    real(wp), parameter :: advised_part = 0.95_wp
+   !> Largest load of a train that vibrates over that of a rigid one from where on the rigid one misleads, since friction goes with
+   !> the load: twice what the estimate is off by where it is farthest off, 0.05 at 2500 rev/min (doc/dynamics.md) [-]
+   real(wp), parameter :: shaken_factor = 1.1_wp
 
 contains
 
@@ -91,6 +95,30 @@ contains
             & "(roller_profile.slices)", half_width/width)
       end do
    end subroutine judge_slices
+
+   !> Say that a train which is computed as a rigid one would vibrate.
+   subroutine judge_stiffness(result)
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+
+      ! Estimated largest load over that of a rigid train [-], natural frequency [Hz]
+      real(wp) :: factor, frequency
+      type(error_t), allocatable :: error
+      character(len=:), allocatable :: prefix
+      integer :: lobe
+
+      do lobe = 1, size(result%summary)
+         prefix = trim(lobe_prefix(lobe))
+         if (find_quantity(result%summary, prefix//"dynamic_load_max") > 0) exit
+         if (find_quantity(result%summary, prefix//"load_factor") == 0) exit
+         call get_summary(result, prefix//"load_factor", factor, error)
+         call get_summary(result, prefix//"train_frequency", frequency, error)
+         if (.not. factor > shaken_factor) cycle
+         call add_named(result, lobe, shaken_train, "the train is computed as a rigid one; with stiffness of usual size its "// &
+            & "natural frequency is about "//number_text(frequency, 2)//" Hz, and its largest contact load an estimated "// &
+            & number_text(factor, 3)//" times that of the rigid one; &dynamics computes it", factor)
+      end do
+   end subroutine judge_stiffness
 
    !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
    subroutine judge_wear(result)
