@@ -60,6 +60,17 @@ def test_band_is_work_of_contact_and_bearing_over_a_turn():
     assert list(np.flatnonzero(shown(data, "0.32 to 0.70"))) == [3]
 
 
+def test_the_page_has_each_trend_for_a_roller_that_sticks_too():
+    creeping, sticking = made_up(), made_up()
+    spread = np.linspace(0.0, 0.1, trends.SAMPLES)[:, None, None]
+    creeping["revolution_slip"][:] = [3.0, 2.0, 1.0] + spread
+    sticking["revolution_slip"][:] = [3.0, 2.0, 2.5] + spread
+    sticking["revolution_slip"][:, 0, 2] = spread[:, 0, 0]
+    text = trends.page(creeping, sticking)
+    assert "slip falls with oil temperature at every speed | 100 % | 0 % |" in text
+    assert "at 95 °C in 1, 0 and 0 % of the sets" in text
+
+
 def test_the_deciding_coefficient_is_found():
     values = trends.samples()
     column = [key for key, *_ in trends.RANGES].index("stem_seal.lip_force_N")

@@ -6,8 +6,7 @@ module camroller_run
    use camroller_error, only : error_t, add_context, kind_convergence, cause_unknown
    use camroller_accuracy, only : is_checked, first_numerics, most_refinements, refine_tolerance, resolve_numerics, &
       & second_method, way_out
-   use camroller_axial_setup, only : coupled_width
-   use camroller_run_remarks, only : judge, judge_slices, judge_stiffness, judge_wear
+   use camroller_run_remarks, only : judge, judge_assumptions, judge_wear
    use camroller_catalogue, only : list_series
    use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
@@ -216,10 +215,7 @@ contains
             & earlier%statistics, with_series, result, error)
          if (allocated(error)) return
       end if
-      associate (length => case%mechanism%contact_width)
-         call judge_slices(coupled_width(case%roller_profile, length), length, result)
-      end associate
-      call judge_stiffness(result)
+      call judge_assumptions(case, result)
       call judge(case%numerics, result, error)
    end subroutine run_listed
 

@@ -1,22 +1,24 @@
 !> Remarks on a result as a whole: an accuracy that was not reached, a tolerance that says nothing of the error, a motion without a
 !> period; a roller that does not turn, slices of it that are too narrow, wear that would change the cam, a rigid train that would
-!> vibrate.
+!> vibrate, slip that is the creep of regularised friction.
 !>
 !> In: numerics as given, the result of a case. Out: remarks, or an error where nothing of the result can be right.
 module camroller_run_remarks
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
+   use camroller_asperity, only : asperity_t, mobilisation_names
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond
-   use camroller_case, only : numerics_t
+   use camroller_axial_setup, only : coupled_width
+   use camroller_case, only : case_t, numerics_t
    use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
-   use camroller_remarks, only : add_remark, deep_wear, idle_roller, loose_tolerance, missed_accuracy, missed_extremes, &
-      & missed_means, narrow_slices, no_period, shaken_train
+   use camroller_remarks, only : add_remark, creeping_roller, deep_wear, idle_roller, loose_tolerance, missed_accuracy, &
+      & missed_extremes, missed_means, narrow_slices, no_period, shaken_train
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
 
-   public :: judge, judge_slices, judge_stiffness, judge_wear
+   public :: judge, judge_assumptions, judge_wear
 
    !> Slip over a turn of the cam beyond which a roller does not roll: those of engines slip by some per cent, and by half on their
    !> base circle alone; one that makes less than a tenth of its turns is a sliding follower [-]
@@ -32,6 +34,8 @@ module camroller_run_remarks
    !> Largest load of a train that vibrates over that of a rigid one from where on the rigid one misleads, since friction goes with
    !> the load: twice what the estimate is off by where it is farthest off, 0.05 at 2500 rev/min (doc/dynamics.md) [-]
    real(wp), parameter :: shaken_factor = 1.1_wp
+   !> Mean slip from where on a roller that should stick matters: slips of rollers that do slide are of that order [-]
+   real(wp), parameter :: notable_slip = 0.005_wp
 
 contains
 
@@ -53,6 +57,20 @@ contains
       if (has_tolerance(numerics)) call judge_tolerance(numerics, result, estimates)
       call judge_turns(result)
    end subroutine judge
+
+   !> Remarks on what the model takes for granted and a result contradicts.
+   subroutine judge_assumptions(case, result)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The result
+      type(result_t), intent(inout) :: result
+
+      associate (length => case%mechanism%contact_width)
+         call judge_slices(coupled_width(case%roller_profile, length), length, result)
+      end associate
+      call judge_stiffness(result)
+      call judge_creep(case%asperity, allocated(case%wear), result)
+   end subroutine judge_assumptions
 
    !> Say that a roller hardly turns.
    subroutine judge_turns(result)
@@ -119,6 +137,37 @@ contains
             & number_text(factor, 3)//" times that of the rigid one; &dynamics computes it", factor)
       end do
    end subroutine judge_stiffness
+
+   !> Say that all slip is what regularised friction lets a roller creep, which it holds.
+   subroutine judge_creep(asperity, has_wear, result)
+      !> Asperities of the case
+      type(asperity_t), intent(in), allocatable :: asperity
+      !> Does the case have wear, which goes with the slip however small it is?
+      logical, intent(in) :: has_wear
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+
+      ! Sliding speed, smallest and largest [m/s]; mean slip [-]
+      real(wp) :: speeds(2), slip
+      type(error_t), allocatable :: error
+      character(len=:), allocatable :: prefix
+      integer :: lobe
+
+      if (.not. allocated(asperity)) return
+      if (asperity%mobilisation /= mobilisation_names(1)) return
+      do lobe = 1, size(result%summary)
+         prefix = trim(lobe_prefix(lobe))
+         if (find_quantity(result%summary, "max_"//prefix//"sliding_speed") == 0) exit
+         call get_summary(result, "min_"//prefix//"sliding_speed", speeds(1), error)
+         call get_summary(result, "max_"//prefix//"sliding_speed", speeds(2), error)
+         call get_summary(result, "mean_"//prefix//"slip_ratio", slip, error)
+         if (.not. (maxval(abs(speeds)) < asperity%mobilising_speed .and. (has_wear .or. abs(slip) > notable_slip))) cycle
+         call add_named(result, lobe, creeping_roller, "the roller slides by less than asperity.mobilising_speed_m_s ("// &
+            & number_text(asperity%mobilising_speed, 3)//") all round the cam, up to "//number_text(maxval(abs(speeds)), 3)// &
+            & " m/s: asperities hold it, and their regularised friction lets it creep; slip, sliding distance and wear go with "// &
+            & "that speed, and with mobilisation = 'stick_slip' there are none", 100.0_wp*abs(slip))
+      end do
+   end subroutine judge_creep
 
    !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
    subroutine judge_wear(result)

@@ -78,3 +78,31 @@ def test_wear_is_next_to_nothing_in_the_deck_and_too_much_of_it_gives_a_remark(c
         with h5py.File(folder / "worn.h5") as file:
             lines = "\n".join(file["run/warnings"].asstr()[...]).splitlines()
         assert sum("mm away from the cam and" in line and "are those of new parts here" in line for line in lines) == count
+
+
+def test_wear_by_creep_alone_has_a_remark(folder, camroller):
+    """Asperities hold the roller at 300 rev/min and not at 900; with stick-slip it does not slide and does not wear."""
+    with h5py.File(folder / "one.h5") as file:
+        slow, fast = file["run/warnings"].asstr()[...]
+        largest = file["summary/max_sliding_speed"][...]
+    told = "asperities hold it, and their regularised friction lets it creep"
+    assert told in slow and largest[0] < 1e-3 and told not in fast and largest[1] > 1e-3
+    done(camroller, "run", DECK, *COARSE, "--set", "sweep.values_1=300", "--set", "asperity.mobilisation='stick_slip'", "-o", "stick.h5",
+         "--quiet", folder=folder)
+    with h5py.File(folder / "stick.h5") as file:
+        assert (file["summary/max_cam_wear_depth"][...] == 0).all() and told not in file["run/warnings"].asstr()[...][0]
+
+
+def test_a_creeping_roller_at_a_crawl_has_the_remark_without_wear(folder, camroller):
+    done(camroller, "run", ROOT / "decks/thesis.nml", "--set", "sweep.values_1=0.1,300", "--set", "sweep.values_2=95", "-o", "crawl.h5",
+         "--quiet", folder=folder)
+    with h5py.File(folder / "crawl.h5") as file:
+        crawling, rolling = file["run/warnings"].asstr()[...]
+        slip = file["summary/mean_slip_ratio"][...].ravel()
+    told = "asperities hold it"
+    assert told in crawling and slip[0] > 0.05 and told not in rolling and slip[1] < 1e-3
+
+
+def test_a_host_refuses_hours_of_running(folder, camroller):
+    refused = run(camroller, "fmu", DECK, "-o", "hours.fmu", folder=folder)
+    assert refused.returncode == 2 and "leave &running_in out" in refused.stderr and not (folder / "hours.fmu").exists()
