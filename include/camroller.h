@@ -1,7 +1,7 @@
 /* camroller: friction, film, slip and drive torque of roller-finger-follower valve trains, for C and all that calls C.
  *
  * Every call that can fail returns 0, or the kind of what went wrong, and fills the caller's error struct, which may be NULL.
- * No call prints or ends the program. What is freed may be NULL.
+ * No call prints or ends the program. What a call makes is given in `*out`, NULL where there is an error. What is freed may be NULL.
  *
  * SI units and radians everywhere; cam angles have the nose, full lift, at pi and grow with the turns. Values of deck keys alone
  * have the unit that the key's name says.
@@ -109,7 +109,8 @@ typedef struct {
    size_t size;
    double mean_torque_drive, torque_drive;       /* mean over the step and at its end [N m] */
    double mean_torque_friction, torque_friction; /* the part for losses [N m] */
-   /* by source: against spring, masses and gas; contact; roller bearing; valve guide; inertia of the roller [N m] */
+   /* by source: against spring, masses and gas; contact; roller bearing; valve guide; inertia of the roller [N m]. All of the drive
+    * with `mean_torque_others` below */
    double mean_torques[5], torques[5];
    double cam_force[2]; /* of the follower on the cam at the end, x from the finger's pivot to the cam's centre [N] */
    /* smallest and largest within the step, at the points that its means are made of */
@@ -120,6 +121,10 @@ typedef struct {
    double smallest_film;     /* [m]; huge where there is no contact all the step */
    /* of the mean torque that drives: what the case's accuracy leaves, not what inputs differ from straight lines [N m] */
    double estimated_error;
+   /* Programs built for a header without the following still work: `size` tells. */
+   /* by all other sources together, as a case has them: oil in the roller's bearing, valve tip, stem seal, ends of the guide, finger's
+    * pivot, dampers and leak; one by one at the end of a step by camroller_simulation_value, `torque_tip` and so on [N m] */
+   double mean_torque_others, torque_others;
 } camroller_outcome;
 
 /* A follower at a cam angle; lobe 1 is the case's lift, 2 its second lift. A flexible train (&dynamics) starts at rest on the base
@@ -164,6 +169,8 @@ typedef struct {
    double mean_torques[5], torques[5];
    double extreme_torque[2]; /* smallest and largest torque that drives, at angles a degree apart at most [N m] */
    double estimated_error;   /* of the mean torque that drives, as in camroller_outcome [N m] */
+   /* Programs built for a header without the following still work: `size` tells. */
+   double mean_torque_others, torque_others; /* of all followers, as in camroller_outcome [N m] */
 } camroller_shaft_outcome;
 /* Advance to a cam angle beyond the present one. `gas_pressures` has one for each cam's valve at the start, then one for each at the
  * end [Pa]; NULL: those of the inputs, for every cam, or of the case's table. A step that fails leaves all followers as they were,

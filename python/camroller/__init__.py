@@ -331,7 +331,7 @@ class Shaft(_Stepped):
 
     def quantities(self, cam=0):
         """Names, units and meanings of the numbers of a follower, or of the camshafts, 0."""
-        return [Quantity(texts) for texts in list_texts("shaft_quantity", 3, self._pointer, cam)]
+        return [Quantity(texts) for texts in list_texts("shaft_quantity", 3, self._pointer, cam, least=1)]
 
     def values(self, cam=0):
         """All numbers at the end of the last step, by name."""

@@ -89,29 +89,47 @@ class ErrorStruct(Struct):
 
 
 class Inputs(Struct):
-    """What a host gives at an end of a step: cam speed above zero [rad/s], oil temperature [K], where `has_pressure` the gauge
-    pressure that presses the valve shut [Pa], and where `has_supply` that of the oil at the lash adjuster [Pa]."""
+    """What a host gives at an end of a step: cam speed above zero [rad/s], oil temperature [K], the gauge pressure that presses the
+    valve shut [Pa] and that of the oil at the lash adjuster [Pa]; None: that of the case."""
 
-    _fields_ = [("size", c_size_t), ("speed", c_double), ("oil_temperature", c_double), ("gas_pressure", c_double),
-                ("has_pressure", c_int), ("has_supply", c_int), ("supply_pressure", c_double)]
+    _fields_ = [("size", c_size_t), ("speed", c_double), ("oil_temperature", c_double), ("_gas_pressure", c_double),
+                ("_has_pressure", c_int), ("_has_supply", c_int), ("_supply_pressure", c_double)]
 
     def __init__(self, speed, oil_temperature, gas_pressure=None, supply_pressure=None):
-        super().__init__(speed=speed, oil_temperature=oil_temperature, gas_pressure=gas_pressure or 0.0,
-                         has_pressure=gas_pressure is not None, supply_pressure=supply_pressure or 0.0,
-                         has_supply=supply_pressure is not None)
+        super().__init__(speed=speed, oil_temperature=oil_temperature)
+        self.gas_pressure, self.supply_pressure = gas_pressure, supply_pressure
+
+    @property
+    def gas_pressure(self):
+        """Gauge pressure that presses the valve shut [Pa]; None: that of the case."""
+        return self._gas_pressure if self._has_pressure else None
+
+    @gas_pressure.setter
+    def gas_pressure(self, pressure):
+        self._has_pressure, self._gas_pressure = pressure is not None, pressure or 0.0
+
+    @property
+    def supply_pressure(self):
+        """Gauge pressure of the oil at the lash adjuster [Pa]; None: that of the case."""
+        return self._supply_pressure if self._has_supply else None
+
+    @supply_pressure.setter
+    def supply_pressure(self, pressure):
+        self._has_supply, self._supply_pressure = pressure is not None, pressure or 0.0
 
 
 class Outcome(Struct):
     """What a step gives for one follower: torques [N m], mean over the step and at its end, all, for losses, and by source (against
-    spring, masses and gas; contact; roller bearing; valve guide; inertia of the roller); force on the cam [N]; smallest and largest
-    load [N], torque [N m] and sliding speed [m/s], largest pressure [Pa], smallest film [m]; estimate of the error of
-    `mean_torque_drive`."""
+    spring, masses and gas; contact; roller bearing; valve guide; inertia of the roller; `torque_others`: all other sources together);
+    force on the cam [N]; smallest and largest load [N], torque [N m] and sliding speed [m/s], largest pressure [Pa], smallest
+    film [m]; estimate of the error of `mean_torque_drive`."""
 
     _fields_ = [("size", c_size_t), ("mean_torque_drive", c_double), ("torque_drive", c_double),
                 ("mean_torque_friction", c_double), ("torque_friction", c_double), ("mean_torques", c_double * 5),
                 ("torques", c_double * 5), ("cam_force", c_double * 2), ("contact_load", c_double * 2),
                 ("extreme_torque", c_double * 2), ("sliding_speed", c_double * 2), ("largest_pressure", c_double),
-                ("smallest_film", c_double), ("estimated_error", c_double)]
+                ("smallest_film", c_double), ("estimated_error", c_double), ("mean_torque_others", c_double),
+                ("torque_others", c_double)]
 
 
 class Cam(Struct):
@@ -128,7 +146,8 @@ class ShaftOutcome(Struct):
     _fields_ = [("size", c_size_t), ("mean_torque_drive", c_double), ("torque_drive", c_double),
                 ("mean_torque_friction", c_double), ("torque_friction", c_double), ("mean_torque_bearings", c_double),
                 ("torque_bearings", c_double), ("mean_torques", c_double * 5), ("torques", c_double * 5),
-                ("extreme_torque", c_double * 2), ("estimated_error", c_double)]
+                ("extreme_torque", c_double * 2), ("estimated_error", c_double), ("mean_torque_others", c_double),
+                ("torque_others", c_double)]
 
 
 ERROR = POINTER(ErrorStruct)
@@ -222,8 +241,9 @@ def call(name, *arguments):
         raise kind(error.message.decode(errors="replace"), error.cause)
 
 
-def list_texts(name, count, *arguments, after=(), room=1024):
-    """Texts of a call that lists something by its place, until there are no more."""
+def list_texts(name, count, *arguments, after=(), room=1024, least=0):
+    """Texts of a call that lists something by its place, until there are no more; the library's error where there are fewer than
+    `least`."""
     number = 0
     while True:
         buffers = [ctypes.create_string_buffer(room) for _ in range(count)]
@@ -231,6 +251,8 @@ def list_texts(name, count, *arguments, after=(), room=1024):
         try:
             call(name, *arguments, number, texts, room, *after)
         except UsageError:
+            if number < least:
+                raise
             return
         yield tuple(buffer.value.decode() for buffer in buffers)
         number += 1

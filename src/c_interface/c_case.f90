@@ -2,7 +2,7 @@
 !>
 !> In: decks as text or file, values for keys. Out: opaque handles, numbers by name, codes.
 module camroller_c_case
-   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
    use camroller_kinds, only : wp
    use camroller_blas_threads, only : use_one_blas_thread
    use camroller_error, only : error_t, raise, kind_usage
@@ -14,7 +14,7 @@ module camroller_c_case
    use camroller_run, only : run_case, build_models
    use camroller_result, only : result_t, find_quantity, get_series, get_summary
    use camroller_remarks, only : remark_lines
-   use camroller_c_structs, only : give_address, give_quantity
+   use camroller_c_structs, only : clear_place, give_address, give_quantity
    use camroller_c_texts, only : take_text, give_text, give_error, refuse_null, has_place
    implicit none
    private
@@ -78,7 +78,7 @@ contains
       character(len=:), allocatable :: deck, place
 
       call refuse_null(text, "text", failure)
-      call refuse_null(handle, "out", failure)
+      call clear_place(handle, failure)
       if (.not. allocated(failure)) then
          call take_text(text, deck)
          call take_text(folder, place)
@@ -103,10 +103,9 @@ contains
       character(len=:), allocatable :: name, deck
 
       call refuse_null(path, "path", failure)
-      call refuse_null(handle, "out", failure)
+      call clear_place(handle, failure)
       if (.not. allocated(failure)) then
          call take_text(path, name)
-         call give_address(handle, c_null_ptr)
          call read_text_file(name, deck, failure)
          if (.not. allocated(failure)) call new_case(deck, name, folder_of(name), handle, failure)
       end if
@@ -125,7 +124,6 @@ contains
       type(case_handle_t), pointer :: made
       type(override_t) :: none(0)
 
-      call give_address(handle, c_null_ptr)
       allocate (made)
       call parse_deck(made%deck, text, name, folder, none, error)
       if (.not. allocated(error)) call make_case(made%deck, none, made%case, error)
@@ -227,9 +225,8 @@ contains
       type(error_t), allocatable :: failure
 
       call refuse_null(handle, "camroller_case", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
-         call give_address(out, c_null_ptr)
          call c_f_pointer(handle, given)
          allocate (made)
          call run_case(given%case, made%result, failure)

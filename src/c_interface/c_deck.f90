@@ -3,7 +3,7 @@
 !>
 !> In: a case. Out: names, units, meanings, values; sentences; one case of the sweep.
 module camroller_c_deck
-   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
    use camroller_error, only : error_t, raise, kind_internal, kind_usage, add_context
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case, drop_sweep
    use camroller_deck_document, only : given_numbers
@@ -12,7 +12,7 @@ module camroller_c_deck
    use camroller_deck_sweep, only : sweep_size, sweep_overrides, get_sweep_value, case_in_words
    use camroller_mistakes, only : line_t
    use camroller_c_case, only : case_handle_t
-   use camroller_c_structs, only : give_address
+   use camroller_c_structs, only : clear_place, give_address
    use camroller_c_texts, only : give_text, give_error, refuse_null, has_place
    implicit none
    private
@@ -76,6 +76,7 @@ contains
       integer(c_size_t), value, intent(in) :: room
 
       type(case_handle_t), pointer :: given
+      type(deck_t) :: deck
       type(line_t), allocatable :: remarks(:)
       character(len=:), allocatable :: text
       integer :: i
@@ -83,7 +84,9 @@ contains
       text = ""
       if (c_associated(handle)) then
          call c_f_pointer(handle, given)
-         call list_deck_remarks(given%deck, remarks)
+         deck = given%deck
+         call drop_sweep(deck)
+         call list_deck_remarks(deck, remarks)
          do i = 1, size(remarks)
             if (i > 1) text = text//new_line("a")
             text = text//remarks(i)%text
@@ -107,7 +110,7 @@ contains
       type(error_t), allocatable :: failure
 
       call refuse_null(handle, "camroller_case", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
          allocate (made)
@@ -189,9 +192,8 @@ contains
       integer :: count, i
 
       call refuse_null(handle, "camroller_case", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
-         call give_address(out, c_null_ptr)
          call c_f_pointer(handle, given)
          if (.not. has_place(number, sweep_size(given%deck%sweep))) call raise(failure, kind_usage, &
             & "the sweep has no case of that number")

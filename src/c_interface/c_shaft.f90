@@ -3,7 +3,7 @@
 !>
 !> In: a case, cam angles, inputs at both ends of a step, gas pressures of the cams. Out: torques, numbers by name, blocks of bytes.
 module camroller_c_shaft
-   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_error, only : error_t
    use camroller_case, only : case_t
@@ -14,7 +14,8 @@ module camroller_c_shaft
    use camroller_saved_simulation, only : save_shaft, restore_shaft, shaft_block_size
    use camroller_torque_list, only : of_bearings
    use camroller_c_case, only : case_handle_t
-   use camroller_c_structs, only : listed_torques, take_inputs, refuse_size, give_address, give_bytes
+   use camroller_c_structs, only : clear_place, give_address, give_bytes, listed_torques, other_torque, refuse_size, &
+      & size_of_others, take_inputs
    use camroller_c_texts, only : give_error, refuse_null
    implicit none
    private
@@ -42,6 +43,8 @@ module camroller_c_shaft
       real(c_double) :: mean_torques(5), torques(5)
       !> Smallest and largest torque that drives, error of the mean torque that drives [N m]
       real(c_double) :: extreme_torque(2), estimated_error
+      !> Of all followers by all other sources together: mean over the step and at its end [N m]
+      real(c_double) :: mean_torque_others, torque_others
    end type c_shaft_outcome_t
 
 contains
@@ -66,7 +69,7 @@ contains
       type(error_t), allocatable :: failure
 
       call refuse_null(case, "camroller_case", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(case, given)
          allocate (made)
@@ -87,7 +90,6 @@ contains
       !> The error, if any
       type(error_t), allocatable, intent(in) :: error
 
-      call give_address(place, c_null_ptr)
       if (allocated(error)) then
          deallocate (made)
          return
@@ -112,7 +114,7 @@ contains
       type(error_t), allocatable :: failure
 
       call refuse_null(handle, "camroller_shaft", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
          allocate (made)
@@ -167,7 +169,8 @@ contains
       if (.not. allocated(failure)) call take_inputs(finish, ends(2), failure)
       if (.not. allocated(failure) .and. c_associated(outcome)) then
          call c_f_pointer(outcome, filled)
-         if (filled%size /= storage_size(filled)/8) call refuse_size("camroller_shaft_outcome", failure)
+         if (all(filled%size /= storage_size(filled)/8 - [0, size_of_others])) &
+            & call refuse_size("camroller_shaft_outcome", failure)
       end if
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
@@ -203,6 +206,9 @@ contains
       given%torques = outcome%torques(listed_torques)
       given%extreme_torque = outcome%extreme_torque
       given%estimated_error = outcome%estimated_error
+      if (given%size < storage_size(given)/8) return
+      given%mean_torque_others = other_torque(outcome%mean_torques)
+      given%torque_others = other_torque(outcome%torques)
    end subroutine fill_outcome
 
    !> Cam angle of the first cam; 0 for NULL.
@@ -302,7 +308,7 @@ contains
 
       call refuse_null(case, "camroller_case", failure)
       call refuse_null(buffer, "buffer", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(case, given)
          call c_f_pointer(buffer, letters, [room])

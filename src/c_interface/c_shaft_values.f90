@@ -256,7 +256,7 @@ contains
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
-      if (given%last == 0) call raise(error, kind_usage, "the shaft has made no step yet")
+      if (given%last == 0) call raise(error, kind_usage, "the shaft has made no step since it was started or restored")
    end subroutine check_stepped
 
 end module camroller_c_shaft_values

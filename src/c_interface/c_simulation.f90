@@ -2,7 +2,7 @@
 !>
 !> In: a case, cam angles, inputs at both ends of a step. Out: torques, numbers by name, blocks of bytes.
 module camroller_c_simulation
-   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
@@ -13,7 +13,7 @@ module camroller_c_simulation
       & angle_of => simulation_angle
    use camroller_saved_simulation, only : save_simulation, restore_simulation, block_size
    use camroller_c_case, only : case_handle_t
-   use camroller_c_structs, only : take_inputs, check_outcome, give_outcome, give_address, give_bytes
+   use camroller_c_structs, only : clear_place, take_inputs, check_outcome, give_outcome, give_address, give_bytes
    use camroller_c_texts, only : take_text, give_error, refuse_null
    implicit none
    private
@@ -49,7 +49,7 @@ contains
       type(error_t), allocatable :: failure
 
       call refuse_null(case, "camroller_case", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(case, given)
          allocate (made)
@@ -69,7 +69,6 @@ contains
       !> The error, if any
       type(error_t), allocatable, intent(in) :: error
 
-      call give_address(place, c_null_ptr)
       if (allocated(error)) then
          deallocate (made)
       else
@@ -92,7 +91,7 @@ contains
       type(error_t), allocatable :: failure
 
       call refuse_null(handle, "camroller_simulation", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
          allocate (made)
@@ -185,7 +184,7 @@ contains
             call raise(failure, kind_usage, "a follower has no number '"//word//"'; it has the series of a result that belong "// &
                & "to one follower")
          else if (.not. given%has_outcome) then
-            call raise(failure, kind_usage, "the follower has made no step yet")
+            call raise(failure, kind_usage, "the follower has made no step since it was started or restored")
          else
             call get_values(given%simulation, given%case, given%outcome%state, values)
             call c_f_pointer(value, number)
@@ -283,7 +282,7 @@ contains
 
       call refuse_null(case, "camroller_case", failure)
       call refuse_null(buffer, "buffer", failure)
-      call refuse_null(out, "out", failure)
+      call clear_place(out, failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(case, given)
          call c_f_pointer(buffer, letters, [room])

@@ -2,18 +2,20 @@
 !>
 !> In: structs of C, whose `size` the caller sets. Out: types of ours, and back.
 module camroller_c_structs
-   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr, &
+      & c_size_t
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_result, only : quantity_t
    use camroller_simulation, only : outcome_t, inputs_t
-   use camroller_torque_list, only : of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
-   use camroller_c_texts, only : give_text
+   use camroller_torque_list, only : is_torque, of_bearings, of_contact, of_geometric, of_guide, of_needle, of_roller_inertia, &
+      & torque_count
+   use camroller_c_texts, only : give_text, refuse_null
    implicit none
    private
 
-   public :: listed_torques, take_inputs, check_outcome, give_outcome, give_quantity, give_bytes, refuse_size, &
-      & give_address
+   public :: listed_torques, size_of_others, take_inputs, check_outcome, give_outcome, give_quantity, give_bytes, other_torque, &
+      & refuse_size, give_address, clear_place
 
    !> Torques in the order of the structs
    integer, parameter :: listed_torques(*) = [of_geometric, of_contact, of_needle, of_guide, of_roller_inertia]
@@ -46,7 +48,12 @@ module camroller_c_structs
       real(c_double) :: contact_load(2), extreme_torque(2), sliding_speed(2), largest_pressure, smallest_film
       !> Of the mean torque that drives [N m]
       real(c_double) :: estimated_error
+      !> By all other sources together: mean over the step and at its end [N m]
+      real(c_double) :: mean_torque_others, torque_others
    end type c_outcome_t
+
+   !> By how much structs were smaller before they had the torques of all other sources
+   integer, parameter :: size_of_others = 16
 
 contains
 
@@ -62,6 +69,32 @@ contains
       call c_f_pointer(place, target_of_caller)
       target_of_caller = address
    end subroutine give_address
+
+   !> Refuse NULL for the place of a new handle; any other place holds NULL until there is one.
+   subroutine clear_place(place, error)
+      !> The argument `out` of the header
+      type(c_ptr), intent(in) :: place
+      !> Usage error; left alone where there is one
+      type(error_t), allocatable, intent(inout) :: error
+
+      call refuse_null(place, "out", error)
+      if (c_associated(place)) call give_address(place, c_null_ptr)
+   end subroutine clear_place
+
+   !> Torque of all sources but the listed ones and the camshaft bearings.
+   pure function other_torque(torques) result(torque)
+      !> Torques, the rows of `torque_list` [N m]
+      real(c_double), intent(in) :: torques(torque_count)
+      !> Their sum [N m]
+      real(c_double) :: torque
+
+      integer :: row
+
+      torque = 0.0_c_double
+      do row = 1, torque_count
+         if (is_torque(row) .and. row /= of_bearings .and. all(listed_torques /= row)) torque = torque + torques(row)
+      end do
+   end function other_torque
 
    !> Inputs from the caller's struct.
    subroutine take_inputs(address, inputs, error)
@@ -99,7 +132,7 @@ contains
 
       if (.not. c_associated(address)) return
       call c_f_pointer(address, given)
-      if (given%size /= storage_size(given)/8) call refuse_size("camroller_outcome", error)
+      if (all(given%size /= storage_size(given)/8 - [0, size_of_others])) call refuse_size("camroller_outcome", error)
    end subroutine check_outcome
 
    !> Refuse a struct of another version.
@@ -136,6 +169,9 @@ contains
       given%largest_pressure = outcome%extremes%hertz_pressure
       given%smallest_film = outcome%extremes%film_min
       given%estimated_error = outcome%estimated_error
+      if (given%size < storage_size(given)/8) return
+      given%mean_torque_others = other_torque(outcome%mean_torques)
+      given%torque_others = other_torque(outcome%torques)
    end subroutine give_outcome
 
    !> Fill a caller's buffers with name, unit and meaning of a quantity.

@@ -56,12 +56,12 @@ contains
       call add(role_time, "time", "s", "time", "time")
       call add(role_parameter, "start_angle", "rad", "cam angle of the first cam at the start, pi at full lift", "start_angle")
       call add_keys(deck, variables)
-      call add(role_input, "speed", "rad/s", "cam speed at the start of a step, above zero", "speed", &
+      call add(role_input, "speed", "rad s-1", "cam speed at the start of a step, above zero", "speed", &
          & case%operating_point%speed)
-      call add(role_input, "speed_slope", "rad/s2", "change of the cam speed with time over a step", "speed_slope")
+      call add(role_input, "speed_slope", "rad s-2", "change of the cam speed with time over a step", "speed_slope")
       call add(role_input, "oil_temperature", "K", "temperature of the oil at the start of a step", "oil_temperature", &
          & case%operating_point%oil_temperature)
-      call add(role_input, "oil_temperature_slope", "K/s", "change of the oil temperature with time over a step", &
+      call add(role_input, "oil_temperature_slope", "K s-1", "change of the oil temperature with time over a step", &
          & "oil_temperature_slope")
       if (allocated(case%gas_force)) then
          call add(role_parameter, "gas_pressure_is_input", "1", "do the inputs give the gas pressure, not the table of the "// &
@@ -70,7 +70,7 @@ contains
          do cam = 1, cams
             call add(role_input, "cam["//integer_text(cam)//"].gas_pressure", "Pa", "gauge pressure that presses the valve "// &
                & "shut at the start of a step", "gas_pressure", 0.0_wp, cam)
-            call add(role_input, "cam["//integer_text(cam)//"].gas_pressure_slope", "Pa/s", "change of the gas pressure with "// &
+            call add(role_input, "cam["//integer_text(cam)//"].gas_pressure_slope", "Pa s-1", "change of the gas pressure with "// &
                & "time over a step", "gas_pressure_slope", 0.0_wp, cam)
          end do
       end if
@@ -80,19 +80,19 @@ contains
          variables(size(variables))%is_logical = .true.
          call add(role_input, "supply_pressure", "Pa", "gauge pressure of the oil at the lash adjuster at the start of a step", &
             & "supply_pressure", case%lash_adjuster%supply_pressure)
-         call add(role_input, "supply_pressure_slope", "Pa/s", "change of the supply pressure with time over a step", &
+         call add(role_input, "supply_pressure_slope", "Pa s-1", "change of the supply pressure with time over a step", &
             & "supply_pressure_slope")
       end if
       call add(role_output, "cam_angle", "rad", "cam angle of the first cam", "cam_angle")
-      call add(role_output, "mean_torque_drive", "N.m", "torque that drives all camshafts, mean over the step", &
+      call add(role_output, "mean_torque_drive", "N m", "torque that drives all camshafts, mean over the step", &
          & "mean_torque_drive")
-      call add(role_output, "mean_torque_friction", "N.m", "torque for all losses, mean over the step", "mean_torque_friction")
-      call add(role_output, "mean_torque_bearings", "N.m", "torque for the camshaft bearings, mean over the step", &
+      call add(role_output, "mean_torque_friction", "N m", "torque for all losses, mean over the step", "mean_torque_friction")
+      call add(role_output, "mean_torque_bearings", "N m", "torque for the camshaft bearings, mean over the step", &
          & "mean_torque_bearings")
-      call add(role_output, "smallest_torque_drive", "N.m", "smallest torque that drives, within the step", &
+      call add(role_output, "smallest_torque_drive", "N m", "smallest torque that drives, within the step", &
          & "smallest_torque_drive")
-      call add(role_output, "largest_torque_drive", "N.m", "largest torque that drives, within the step", "largest_torque_drive")
-      call add(role_output, "estimated_error", "N.m", "estimate of the error of mean_torque_drive", "estimated_error")
+      call add(role_output, "largest_torque_drive", "N m", "largest torque that drives, within the step", "largest_torque_drive")
+      call add(role_output, "estimated_error", "N m", "estimate of the error of mean_torque_drive", "estimated_error")
       do cam = 0, cams
          call add_series(case, cam, variables)
       end do

@@ -258,27 +258,29 @@ contains
       !> Deck, domain or convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      logical :: has_films
+      ! Has the model films solved beforehand that go with its oil, at a speed in their range? Does it keep those that it has?
+      logical :: has_films, keeps_films
 
       associate (point => follower%point)
+         has_films = .false.
+         if (allocated(follower%model%ehl)) has_films = same_bits(oil_temperature, point%film_temperature) .and. &
+            & abs(speed - sum(film_range)*0.5_wp*point%film_speed) <= 0.5_wp*(film_range(2) - film_range(1))*point%film_speed
          if (same_bits(oil_temperature, point%oil_temperature) .and. .not. follower%is_to_be_set) then
             if (.not. (may_solve .and. allocated(follower%model%ehl))) then
                call set_speed(follower%model, speed)
                return
             end if
-            if (same_bits(speed, follower%model%speed) .and. same_bits(oil_temperature, point%film_temperature)) return
+            if (same_bits(speed, follower%model%speed) .and. has_films) return
          end if
-         has_films = allocated(follower%model%ehl) .and. (.not. may_solve .or. (same_bits(oil_temperature, &
-            & point%film_temperature) .and. abs(speed - sum(film_range)*0.5_wp*point%film_speed) &
-            & <= 0.5_wp*(film_range(2) - film_range(1))*point%film_speed))
-         if (has_films) then
+         keeps_films = has_films .or. (allocated(follower%model%ehl) .and. .not. may_solve)
+         if (keeps_films) then
             call keep_films(follower%model, speed, oil_temperature, error)
          else
             call set_operating_point(follower%model, speed, oil_temperature, error)
          end if
          point%oil_temperature = oil_temperature
          follower%is_to_be_set = .false.
-         if (has_films .or. .not. allocated(follower%model%ehl)) return
+         if (keeps_films .or. .not. allocated(follower%model%ehl)) return
          point%film_temperature = oil_temperature
          point%film_speed = speed
       end associate

@@ -1,7 +1,8 @@
 !> A number that tells one model from another, to be saved with what was computed with it.
 !>
-!> In: a model as a case makes it, the case. Out: the mark. What no state follows is not in it; what steps may meet at other
-!> temperatures and angles than the states are at is: the laws of the oil and of boundary friction, the table of gas pressure.
+!> In: a model as a case makes it, the case. Out: the mark, of states at the operating point of the case, slowly, and in hot oil,
+!> where other parts of the model act, and of what steps may meet elsewhere: the laws of the oil and of boundary friction, the
+!> table of gas pressure, a flexible train. What no state follows is not in it.
 module camroller_model_mark
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp, pi, two_pi
@@ -12,6 +13,7 @@ module camroller_model_mark
    use camroller_flexible_parts, only : flexible_t
    use camroller_lubricant, only : density_at, get_oil, lubricant_t, oil_t
    use camroller_model, only : model_t
+   use camroller_ramp, only : keep_films
    use camroller_state, only : state_t, evaluate_state
    implicit none
    private
@@ -22,6 +24,8 @@ module camroller_model_mark
    integer(int64), parameter :: beginning = 7237970109966541155_int64
    !> Cam angles at which states make up the mark
    integer, parameter :: places = 36
+   !> Cam speed at which films are so thin that surfaces touch [rad/s], temperature [K]
+   real(wp), parameter :: slow = 1.0_wp, hot = 425.0_wp
    !> Temperatures at which the laws of oil and boundary friction do [K]
    real(wp), parameter :: temperatures(*) = [250.0_wp, 275.0_wp, 300.0_wp, 325.0_wp, 350.0_wp, 375.0_wp, 400.0_wp, 425.0_wp]
    !> Sliding speeds at which boundary friction does [m/s]
@@ -38,24 +42,22 @@ contains
       !> The mark
       integer(int64), intent(out) :: mark
 
-      type(state_t) :: state
+      type(model_t) :: other
       type(gas_force_t) :: gas
-      ! Cam angle from full lift [rad]; sliding speed [m/s]
-      real(wp) :: angle, sliding_speed
-      integer(int64) :: parts(5*places)
-      integer :: i, status
+      ! Where the oil has no value, which is part of the mark as well
+      type(error_t), allocatable :: error
+      integer(int64) :: parts(5*places, 3)
 
       parts = 0_int64
-      do i = 1, places
-         angle = -pi + (i - 0.37_wp)*two_pi/places
-         sliding_speed = 0.02_wp*modulo(i, 3)*model%speed*model%roller_radius
-         call evaluate_state(model, angle, sliding_speed, state, status)
-         if (status /= 0) cycle
-         parts(5*i - 4:5*i) = transfer([state%contact%load, state%contact%traction, state%spin_acceleration, &
-            & state%torque_friction, state%torque_drive], parts)
-      end do
+      call follow_states(model, parts(:, 1))
+      other = model
+      call keep_films(other, slow, case%operating_point%oil_temperature, error)
+      if (.not. allocated(error)) call follow_states(other, parts(:, 2))
+      call keep_films(other, model%speed, hot, error)
+      if (.not. allocated(error)) call follow_states(other, parts(:, 3))
       associate (numerics => case%numerics)
-         mark = mixed([parts, transfer([numerics%accuracy, numerics%tolerance], parts), transfer(numerics%method, parts)])
+         mark = mixed([pack(parts, .true.), transfer([numerics%accuracy, numerics%tolerance], parts), &
+            & transfer(numerics%method, parts)])
       end associate
       call mark_oil(case%lubricant, mark)
       if (allocated(model%boundary)) call mark_boundary(model%boundary, mark)
@@ -65,6 +67,28 @@ contains
       end if
       if (allocated(model%flexible)) call mark_train(model%flexible, mark)
    end subroutine mark_model
+
+   !> Loads, friction and torques of states over the turn.
+   subroutine follow_states(model, parts)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Five numbers of each state, 0 where there is none
+      integer(int64), intent(inout) :: parts(:)
+
+      type(state_t) :: state
+      ! Cam angle from full lift [rad]; sliding speed [m/s]
+      real(wp) :: angle, sliding_speed
+      integer :: i, status
+
+      do i = 1, places
+         angle = -pi + (i - 0.37_wp)*two_pi/places
+         sliding_speed = 0.02_wp*modulo(i, 3)*model%speed*model%roller_radius
+         call evaluate_state(model, angle, sliding_speed, state, status)
+         if (status /= 0) cycle
+         parts(5*i - 4:5*i) = transfer([state%contact%load, state%contact%traction, state%spin_acceleration, &
+            & state%torque_friction, state%torque_drive], parts)
+      end do
+   end subroutine follow_states
 
    !> Take the laws of an oil into a mark.
    subroutine mark_oil(lubricant, mark)

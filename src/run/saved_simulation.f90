@@ -11,7 +11,7 @@ module camroller_saved_simulation
    use camroller_number_text, only : integer_text
    use camroller_follower_step, only : point_t
    use camroller_model_mark, only : beginning, mixed
-   use camroller_shaft_simulation, only : shaft_simulation_t, start_shaft, cam_number, cam_point, get_shaft_mark, set_shaft, &
+   use camroller_shaft_simulation, only : shaft_simulation_t, prepare_shaft, cam_number, cam_point, get_shaft_mark, set_shaft, &
       & shaft_angle
    use camroller_simulation, only : simulation_t, start_simulation, get_point, set_point, get_lobe, get_mark, is_started
    implicit none
@@ -134,15 +134,12 @@ contains
 
       integer(int64), allocatable :: block(:)
       type(point_t), allocatable :: points(:)
-      ! Cam angle of the first cam [rad]
-      real(wp) :: angle
       integer(int64) :: mark
       integer :: cam
 
       call take_block(bytes, "restore_shaft", max(size(bytes)/8, shaft_words), of_shaft, block, error)
       if (allocated(error)) return
-      angle = transfer(block(5), angle)
-      call start_shaft(shaft, case, angle, error, threads)
+      call prepare_shaft(shaft, case, error, threads)
       if (allocated(error)) return
       call get_shaft_mark(shaft, mark)
       call compare_marks("restore_shaft", mark, block(3), error)
@@ -151,7 +148,7 @@ contains
       do cam = 1, size(points)
          points(cam) = point_of(block(point_place(cam):point_place(cam + 1) - 1))
       end do
-      call set_shaft(shaft, angle, points, error)
+      call set_shaft(shaft, transfer(block(5), 1.0_wp), points, error)
    end subroutine restore_shaft
 
    !> Place of a cam's point in the block of a shaft.

@@ -22,7 +22,7 @@ module camroller_shaft_simulation
    implicit none
    private
 
-   public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft
+   public :: shaft_simulation_t, shaft_outcome_t, prepare_shaft, start_shaft, advance_shaft, halt_shaft
    public :: cam_number, cam_place, shaft_angle, shaft_series, shaft_values, get_shaft_mark, cam_point, set_shaft
 
    !> All followers of a case between two steps
@@ -55,6 +55,31 @@ contains
       !> Threads that share the followers in a step, 1 without it
       integer, intent(in), optional :: threads
 
+      integer :: cam
+
+      call prepare_shaft(shaft, case, error, threads)
+      if (.not. allocated(error)) call check_angle("start_shaft", cam_angle, error)
+      if (.not. allocated(error)) then
+         shaft%angle = cam_angle
+         do cam = 1, size(shaft%followers)
+            call place_simulation(shaft%followers(cam), cam_angle - shaft%shaft%phases(cam), error)
+            if (allocated(error)) exit
+         end do
+      end if
+      if (allocated(error) .and. allocated(shaft%followers)) deallocate (shaft%followers)
+   end subroutine start_shaft
+
+   !> Make the models of a shaft, whose followers are still to be placed.
+   subroutine prepare_shaft(shaft, case, error, threads)
+      !> The shaft; without followers where there is an error
+      type(shaft_simulation_t), intent(out) :: shaft
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Usage, deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+      !> Threads that share the followers in a step, 1 without it
+      integer, intent(in), optional :: threads
+
       type(oil_t) :: oil
       integer :: cam, first
 
@@ -68,12 +93,10 @@ contains
             & "whole turn, not step by step; set journal_motion = 'quasi_steady' in &cam_bearings and leave &bearing_heat out")
          return
       end if
-      call check_angle("start_shaft", cam_angle, error)
-      if (.not. allocated(error)) call get_oil(case%lubricant, case%operating_point%oil_temperature, oil, error)
+      call get_oil(case%lubricant, case%operating_point%oil_temperature, oil, error)
       if (.not. allocated(error)) call new_shaft(shaft%shaft, case, oil%viscosity, case%operating_point%speed, error)
       if (allocated(error)) return
       shaft%case = case
-      shaft%angle = cam_angle
       associate (lobes => shaft%shaft%lobes)
          allocate (shaft%followers(size(lobes)))
          do cam = 1, size(lobes)
@@ -84,12 +107,8 @@ contains
             if (allocated(error)) exit
          end do
       end associate
-      do cam = 1, size(shaft%followers)
-         if (allocated(error)) exit
-         call place_simulation(shaft%followers(cam), cam_angle - shaft%shaft%phases(cam), error)
-      end do
       if (allocated(error)) deallocate (shaft%followers)
-   end subroutine start_shaft
+   end subroutine prepare_shaft
 
    !> Advance all followers to a cam angle, with inputs at both ends of the step, linear in the cam angle between.
    subroutine advance_shaft(shaft, cam_angle, start, finish, outcome, error, pressures)

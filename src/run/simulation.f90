@@ -15,6 +15,7 @@ module camroller_simulation
    use camroller_model, only : model_t, set_operating_point
    use camroller_catalogue, only : follower_count, follower_values, list_series
    use camroller_kinematics, only : position_t
+   use camroller_lubricant, only : get_oil, oil_t
    use camroller_state, only : state_t
    use camroller_balance, only : find_balance
    use camroller_flexible_step, only : step_train, place_train, halt_train
@@ -93,6 +94,11 @@ contains
       real(wp) :: sliding_speed, least_scale, unused
       integer :: evaluations
 
+      if (allocated(case%running_in)) then
+         call raise(error, kind_usage, "start_simulation: hours of running are computed from whole cycles, not from steps; "// &
+            & "leave &running_in out, and the surfaces are those of the case")
+         return
+      end if
       call build_model(case, used_lobe, started%follower%model, error)
       if (allocated(error)) return
       if (.not. has_error_control(case%numerics)) then
@@ -193,8 +199,7 @@ contains
 
       type(inputs_t) :: inputs
 
-      inputs%speed = speed
-      inputs%oil_temperature = oil_temperature
+      inputs = inputs_t(speed=speed, oil_temperature=oil_temperature)
       call advance_inputs(simulation, cam_angle, inputs, inputs, outcome, error)
    end subroutine advance_steady
 
@@ -436,13 +441,19 @@ contains
       type(simulation_t), intent(in) :: simulation
       !> Inputs at both ends
       type(inputs_t), intent(in) :: start, finish
-      !> Usage error
+      !> Usage, deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
+      type(oil_t) :: oil
+      ! At both ends [K]
+      real(wp) :: temperatures(2)
+      integer :: i
+
+      temperatures = [start%oil_temperature, finish%oil_temperature]
       if (.not. all(is_within([start%speed, finish%speed], above_zero, huge(1.0_wp)))) then
          call raise(error, kind_usage, "advance: the speed must be positive and finite at both ends of a step; where an engine "// &
             & "stops, end the step before and call halt")
-      else if (.not. all(is_within([start%oil_temperature, finish%oil_temperature], above_zero, huge(1.0_wp)))) then
+      else if (.not. all(is_within(temperatures, above_zero, huge(1.0_wp)))) then
          call raise(error, kind_usage, "advance: the oil temperature must be above 0 K and finite at both ends of a step")
       else if (start%has_pressure .neqv. finish%has_pressure) then
          call raise(error, kind_usage, "advance: the gas pressure must be given at both ends of a step or at none")
@@ -454,6 +465,12 @@ contains
       else if (start%has_supply .or. finish%has_supply) then
          call check_supply(simulation%follower%model, start, finish, error)
       end if
+      ! Where the oil has no viscosity is found before the step goes near it
+      do i = 1, 2
+         if (allocated(error)) return
+         if (abs(temperatures(i) - simulation%follower%point%oil_temperature) > 0.0_wp) &
+            & call get_oil(simulation%follower%model%lubricant, temperatures(i), oil, error)
+      end do
    end subroutine check_inputs
 
    !> Refuse supply pressures that cannot be.

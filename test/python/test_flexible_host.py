@@ -70,7 +70,7 @@ def older(size):
     return ctypes.cast(ctypes.pointer(made), ctypes.POINTER(camroller.Inputs)).contents
 
 old = older(ctypes.sizeof(Older))
-assert old.size == 40 and Older.padding.offset == camroller.Inputs.has_supply.offset
+assert old.size == 40 and Older.padding.offset == camroller.Inputs._has_supply.offset
 new = camroller.Inputs(60.0, 360.0)
 followers = [camroller.Simulation(case, 2.0) for _ in range(2)]
 torques = [follower.step(2.4, inputs).mean_torque_drive for follower, inputs in zip(followers, (old, new))]

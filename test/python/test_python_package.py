@@ -19,7 +19,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks" / "thesis.nml"
 
 CHECK = """
-import camroller, json, sys
+import ctypes, json, sys
+import camroller
+from camroller import _library
 deck = sys.argv[1]
 answers = {}
 rows = camroller.run(deck, threads=3)
@@ -79,6 +81,24 @@ try:
     shaft.step(shaft.angle + 0.1, camroller.Inputs(60.0, 333.15), gas_pressures=pressures[:1])
 except camroller.UsageError as error:
     errors["pressures"] = str(error)
+try:
+    shaft.quantities(9)
+except camroller.UsageError as error:
+    errors["cam"] = str(error)
+inputs = camroller.Inputs(60.0, 333.15)
+inputs.gas_pressure = 6e5
+steps = [shaft.copy().step(shaft.angle + 0.1, pressed).mean_torque_drive.hex()
+         for pressed in (inputs, camroller.Inputs(60.0, 333.15, 6e5), camroller.Inputs(60.0, 333.15))]
+answers["gas"] = steps, inputs.gas_pressure, inputs.supply_pressure
+joints = camroller.Case(sys.argv[3])
+outcome = camroller.Simulation(joints).step(2.0, camroller.Inputs(60.0, 333.15))
+answers["sums"] = [[outcome.mean_torque_drive, sum(outcome.mean_torques), outcome.mean_torque_others],
+                   [outcome.torque_drive, sum(outcome.torques), outcome.torque_others]]
+outcome = camroller.Shaft(joints).step(2.0, camroller.Inputs(60.0, 333.15))
+answers["sums"] += [[outcome.mean_torque_drive, sum(outcome.mean_torques) + outcome.mean_torque_bearings, outcome.mean_torque_others],
+                    [outcome.torque_drive, sum(outcome.torques) + outcome.torque_bearings, outcome.torque_others]]
+place = ctypes.c_void_p(1)
+answers["place"] = [_library.LIBRARY.camroller_case_from_file(None, ctypes.byref(place), None), place.value]
 print(json.dumps(answers))
 """
 
@@ -109,7 +129,8 @@ def installed(cmake_prefix, tmp_path_factory):
 @pytest.fixture(scope="module")
 def answers(installed):
     clean = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "LD_"))}
-    return json.loads(run(installed[0], "-c", CHECK, DECK, ROOT / "decks" / "three_cam_head.nml", env=clean))
+    return json.loads(run(installed[0], "-c", CHECK, DECK, ROOT / "decks" / "three_cam_head.nml", ROOT / "decks" / "sliding_joints.nml",
+                          env=clean))
 
 
 def test_results_have_the_bits_of_the_program(answers, cmake_io_prefix, tmp_path):
@@ -127,7 +148,7 @@ def test_results_have_the_bits_of_the_program(answers, cmake_io_prefix, tmp_path
     with h5py.File(tmp_path / "one.h5") as file:
         assert float.fromhex(answers["set"]) == np.asarray(file["summary/mean_torque_friction"]).item()
     assert answers["number"] == 600.0
-    assert answers["swept_remark"] == ["'operating_point.speed_rpm=600' is not used by the sweep, which varies operating_point.speed_rpm"]
+    assert answers["swept_remark"] == []
     assert [text.split()[0] for text in answers["remark"]] == ["roller.mass_kg"]
 
 
@@ -137,7 +158,15 @@ def test_errors_are_exceptions_with_the_line_of_the_deck(answers):
     assert errors["line"][0] == 3
     assert "no such deck" in errors["file"] and "radius_mm" in errors["value"]
     assert "backward" in errors["backward"] and "halt" in errors["standstill"] and "positive" in errors["negative"]
-    assert "each of the 3 cams" in errors["pressures"]
+    assert "each of the 3 cams" in errors["pressures"] and "there is no cam 9" in errors["cam"]
+    assert answers["place"] == [2, None]
+
+
+def test_torques_by_source_add_up_and_pressures_count_where_they_are_set(answers):
+    for drive, listed, others in answers["sums"]:
+        assert others > 0.01 * drive > 0 and listed + others == pytest.approx(drive, rel=1e-12)
+    steps, gas, supply = answers["gas"]
+    assert steps[0] == steps[1] != steps[2] and gas == 6e5 and supply is None
 
 
 def test_copies_and_saved_states_continue_with_the_same_bits(answers):
