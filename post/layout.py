@@ -23,6 +23,7 @@ LINE_STYLES = ["-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 2.5)), (0,
 MOST_COLOURS = 7
 MOST_LISTED = 12  # cases of a list in a figure of curves
 SPEED = "operating_point.speed_rpm"  # of the shaft that `engine.given_speed` names, where there is an engine
+TAKEN = {"largest": np.max, "smallest": np.min, "mean": np.mean}  # of the values of several cases that count as one
 LIST = "case"  # stands for the swept keys where each case has a label of its own
 
 
@@ -275,13 +276,39 @@ def chosen_cases(result, selections):
     for selection in selections:
         name, equals, wanted = selection.rpartition("=")
         if equals:
-            key = _matching_key(result, name.strip())
+            key = key_meant(name.strip(), result.sweep, result.deck)
+            if key is None:
+                swept = ", ".join(result.sweep) or "none"
+                raise ResultError(f"--cases: '{name.strip()}' is not one key of the deck in {result.path} (swept keys: {swept})")
             texts = [text.strip() for text in wanted.split(",")]
             cases = [case for case in cases if any(_same(result.value_of(key, case), text) for text in texts)]
         else:
             indices = _indices(selection, result)
             cases = [case for case in cases if case in indices]
     return cases
+
+
+def groups_over(result, cases, over):
+    """Swept keys meant by these names, and the cases that differ in them only, group by group; each by itself without names."""
+    gone = [key_meant(name, result.sweep) for name in over]
+    if None in gone:
+        raise ResultError(f"{result.path}: --over: '{over[gone.index(None)]}' is not one of the swept keys: "
+                          f"{', '.join(result.sweep) or 'there is none'}")
+    kept = [quantity.values.tolist() for key, quantity in result.sweep.items() if key not in gone]
+    groups = {}
+    for case in cases:
+        groups.setdefault(tuple(column[case] for column in kept) if gone else case, []).append(case)
+    return gone, list(groups.values())
+
+
+def key_meant(name, *groups):
+    """The key meant by its name, its last part, or that without the unit, in the first group that has one of these; else None."""
+    for known in groups:
+        keys = [key for key, quantity in known.items()
+                if name in (key, key.rpartition(".")[2], bare_name(key.rpartition(".")[2], quantity.units))]
+        if len(keys) == 1:
+            return keys[0]
+    return None
 
 
 def thin_out(values, most, groups=()):
@@ -379,17 +406,6 @@ def _unit(key, results):
     unit = _file_unit(key, results)
     last = key.rpartition("_")[2]
     return "" if unit in ("1", "-") else unit_words(unit or (last if last in WORDS else ""))
-
-
-def _matching_key(result, name):
-    """The swept key, else the deck key, meant by its name, its last part, or that without the unit."""
-    for known in (result.sweep, result.deck):
-        keys = [key for key, quantity in known.items()
-                if name in (key, key.rpartition(".")[2], bare_name(key.rpartition(".")[2], quantity.units))]
-        if len(keys) == 1:
-            return keys[0]
-    swept = ", ".join(result.sweep) or "none"
-    raise ResultError(f"--cases: '{name}' is not one key of the deck in {result.path} (swept keys: {swept})")
 
 
 def _same(value, text):

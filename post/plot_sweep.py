@@ -14,13 +14,11 @@ is read, so a file of a hundred thousand cases is drawn as well. Needs no displa
 """
 
 import argparse
-import difflib
 from pathlib import Path
 import re
 import sys
 import textwrap
 
-import h5py
 import matplotlib
 
 matplotlib.use("Agg")
@@ -34,8 +32,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: 
 import numpy as np  # noqa: E402
 
 from command import DPI, run, save_figure  # noqa: E402
-from layout import SPEED, thin_out  # noqa: E402
-from read import ResultError, fills_grid, opened, reason_of, text_of, without_results  # noqa: E402
+from layout import SPEED, TAKEN, groups_over, key_meant, thin_out  # noqa: E402
+from read import ResultError, fills_grid, read_result  # noqa: E402
 from units import distinct_texts, fitting_unit, key_words, number, unit_words, with_unit  # noqa: E402
 
 FIGURES = ("map", "curves", "scatter", "parallel")
@@ -48,7 +46,6 @@ MOST_WORDS = 24  # values of a key that the axis of a map can name
 ROUNDING = 1e-9  # part of a quantity within which its values are the same
 CONDITION = re.compile(r"^\s*([\w.]+)\s*(<=|>=|<|>)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*$")
 RELATIONS = {"<": np.less, ">": np.greater, "<=": np.less_equal, ">=": np.greater_equal}
-TAKEN = {"largest": np.max, "smallest": np.min, "mean": np.mean}
 PLAIN = FuncFormatter(lambda value, _: f"{value:g}")  # numbers of logarithmic axes
 SPREAD = 0.18  # of points of a scatter about the word they belong to
 
@@ -61,88 +58,76 @@ class Sweep:
 
     def __init__(self, path, quantities, conditions=(), over=(), take="largest"):
         self.keys, self.quantities, self.words, self.logarithmic, self.remarks = {}, {}, {}, set(), []
-        with opened(path, "a result of a sweep") as file:
-            if "sweep" not in file or "summary/status" not in file:
-                missing = "/summary/status" if "sweep" in file else "/sweep"
-                raise ResultError(f"{path} is no result of a sweep: there is no {missing}")
-            self.status = file["summary/status"][()]
-            if np.size(self.status) and np.all(self.status != 0):
-                raise without_results(path, reason_of(0, text_of(np.ravel(file["run/messages"][()])[0])) if "run/messages" in file else "")
-            self.title = _title(file, path)
-            gone = [_matching_key(path, file, name) for name in over]
-            groups = _groups_over(file, gone) if gone else None
-            if gone:
-                count, names = len(groups), ", ".join(key.split(".")[-1] for key in gone)
-                self.remarks.append(f"{take} over {names}, {len(self.status)} cases make {count}")
-            for key, data in file["sweep"].items():
-                if key in gone:
-                    continue
-                self._add(path, self.keys, key, data)
-                if key == SPEED and (shaft := _words(file, "engine.given_speed")):
-                    self.keys[key] = (self.keys[key][0], f"{shaft} {self.keys[key][1]}")
-                if gone:
-                    self.keys[key] = (self.keys[key][0][[group[0] for group in groups]], self.keys[key][1])
-                if _is_logarithmic(file, key) and (self.keys[key][0] > 0).all():
+        result = read_result(path, with_series=False)
+        result.need_results()
+        self.title, self.take, shaft = result.title, take, _words(result, "engine.given_speed")
+        gone, groups = groups_over(result, range(result.cases), over)
+        self.groups = groups if gone else None
+        if gone:
+            names = ", ".join(key.split(".")[-1] for key in gone)
+            self.remarks.append(f"{take} over {names}, {result.cases} cases make {len(groups)}")
+        failed = np.zeros(result.cases)
+        failed[[case for case, _ in result.failed_cases()]] = 1
+        self.failed = self._taken(failed, np.max)
+        for key, quantity in result.sweep.items():
+            if key not in gone:
+                values = self._numbers(key, quantity.values)[[group[0] for group in groups]]
+                label = with_unit(key_words(key, quantity.units), unit_words(quantity.units))
+                self.keys[key] = (values, f"{shaft} {label}" if key == SPEED and shaft else label)
+                if _is_logarithmic(result, key) and (values > 0).all():
                     self.logarithmic.add(key)
-            for name in quantities:
-                if name not in file["summary"]:
-                    there = list(file["summary"])
-                    near = [other for other in there if name in other][:5] or difflib.get_close_matches(name, there, 5)
-                    raise ResultError(f"{path} has no summary '{name}'" + (f"; there is {', '.join(near)}" if near else ""))
-                self._add(path, self.quantities, name, file["summary"][name], groups, take)
-            kept = self._kept(path, file, conditions, groups, take)
-            if gone:
-                self.status = np.array([self.status[group].max() for group in groups])
-        for name, (values, label) in self.quantities.items():
-            values = np.where(kept, values, np.nan)
-            self.quantities[name] = (values, label)
-            known = values[np.isfinite(values)]
-            if name not in self.words and known.size and known.min() > 0 and known.max() > WIDE * known.min():
-                self.logarithmic.add(name)
         if not self.keys:
             raise ResultError(f"nothing varies in {path}; plot.py draws its curves, table.py prints its means")
+        kept = self._kept(result, conditions)
+        for name in quantities:
+            self._add(result, name, kept)
         if not any(np.isfinite(values).any() for values, _ in self.quantities.values()):
             raise ResultError(f"{path}: no case has a value of {', '.join(self.quantities)}")
 
-    def _kept(self, path, file, conditions, groups, take):
+    def _add(self, result, name, kept):
+        """A scalar of the summary, without number for the cases that are not kept."""
+        quantity = result.scalar(name)
+        values, unit, label = self._taken(self._numbers(name, quantity.values)), quantity.units, key_words(name, quantity.units)
+        if name not in self.words:
+            unit, scale = fitting_unit(name, unit, values)
+            values, label = values * scale, (f"{self.take} {name}" if self.groups else name).replace("_", " ")
+        elif self.groups:
+            raise ResultError(f"{result.path}: {name} holds words, of which --over can take no {self.take} one")
+        values = np.where(kept, values, np.nan)
+        self.quantities[name] = (values, with_unit(label, unit_words(unit)))
+        known = values[np.isfinite(values)]
+        if name not in self.words and known.size and known.min() > 0 and known.max() > WIDE * known.min():
+            self.logarithmic.add(name)
+
+    def _kept(self, result, conditions):
         """Which cases meet every condition, as `mean_slip_ratio < 0.01`, in the units of the file."""
-        kept = np.ones(len(groups or self.status), dtype=bool)
+        kept = np.ones(len(self.failed), dtype=bool)
         for condition in conditions:
             found = CONDITION.match(condition)
             if not found:
                 raise ResultError(f"--where takes NAME < NUMBER, or with >, <= or >=, not '{condition}'")
             name, relation, limit = found.groups()
-            place = next((f"{group}/{name}" for group in ("summary", "sweep") if name in file[group]), None)
-            if place is None:
-                keys = [key for key in file["sweep"] if key.split(".")[-1] == name]
-                if len(keys) != 1:
-                    raise ResultError(f"{path} has no summary and no key '{name}' to choose cases by")
-                place = f"sweep/{keys[0]}"
-            values = np.asarray(file[place][()], dtype=float)
-            kept &= RELATIONS[relation](_taken(values, groups, take), float(limit))
+            key = None if name in result.summary else key_meant(name, result.sweep)
+            if key is None and name not in result.summary:
+                raise ResultError(f"{result.path} has no summary and no key '{name}' to choose cases by")
+            values = np.asarray((result.sweep[key] if key else result.scalar(name)).values, dtype=float)
+            kept &= RELATIONS[relation](self._taken(values), float(limit))
         if conditions:
             if not kept.any():
-                raise ResultError(f"{path}: no case has {' and '.join(conditions)}")
+                raise ResultError(f"{result.path}: no case has {' and '.join(conditions)}")
             self.remarks.append(f"{kept.sum()} of {len(kept)} cases have {' and '.join(conditions)}")
         return kept
 
-    def _add(self, path, columns, name, data, groups=None, take=""):
-        values = data[()]
-        if np.shape(values) != np.shape(self.status) or np.ndim(values) != 1:
-            raise ResultError(f"{path}: {name} does not have one value for each case")
-        unit = data.attrs.get("units", "")
-        unit = unit.decode() if isinstance(unit, bytes) else str(unit)
-        if h5py.check_string_dtype(data.dtype):
-            if groups:
-                raise ResultError(f"{path}: {name} holds words, of which --over can take no {take} one")
-            self.words[name], values = np.unique([text.decode() for text in values], return_inverse=True)
-        values = _taken(np.asarray(values, dtype=float), groups, take)
-        if columns is self.quantities and name not in self.words:
-            unit, scale = fitting_unit(name, unit, values)
-            values, label = values * scale, (f"{take} {name}" if groups else name).replace("_", " ")
-        else:
-            label = key_words(name, unit)
-        columns[name] = (values, with_unit(label, unit_words(unit)))
+    def _numbers(self, name, values):
+        """The values, of words their places in the list of different ones."""
+        if values.dtype.kind in "US":
+            self.words[name], values = np.unique(values, return_inverse=True)
+        return np.asarray(values, dtype=float)
+
+    def _taken(self, values, function=None):
+        """One value for each group of cases; none where a case of it has none."""
+        function = function or TAKEN[self.take]
+        return values if self.groups is None else np.array([function(values[group]) for group in self.groups])
 
     def lengths(self):
         """Number of different values of each key."""
@@ -150,7 +135,7 @@ class Sweep:
 
     def is_grid(self):
         """Is every value there with every other?"""
-        return fills_grid([values.tolist() for values, _ in self.keys.values()], len(self.status))
+        return fills_grid([values.tolist() for values, _ in self.keys.values()], len(self.failed))
 
     def column(self, name):
         """Values and label of a key or a quantity."""
@@ -166,46 +151,15 @@ class Sweep:
         return distinct_texts(values.tolist())[int(np.searchsorted(values, value))] if len(values) <= MOST_WORDS else f"{value:.4g}"
 
 
-def _title(file, path):
-    """Title that the deck gives, or the name of the file."""
-    return _words(file, "case.title") or Path(path).stem
-
-
-def _words(file, key):
+def _words(result, key):
     """Value of a key of the deck that holds words; blank where it has none."""
-    given = file.get(f"deck/values/{key}")
-    words = given[()] if isinstance(given, h5py.Dataset) else b""
-    return words.decode() if isinstance(words, bytes) else str(words)
+    return str(result.deck[key].values) if key in result.deck else ""
 
 
-def _matching_key(path, file, name):
-    """The swept key with this name or last part."""
-    found = [key for key in file["sweep"] if name in (key, key.split(".")[-1])]
-    if len(found) != 1:
-        raise ResultError(f"{path}: --over: '{name}' is not one of the swept keys: {', '.join(file['sweep'])}")
-    return found[0]
-
-
-def _groups_over(file, gone):
-    """Numbers of the cases that differ in some keys only, in the order of the first case of each group."""
-    groups = {}
-    for case, place in enumerate(zip(*(file["sweep"][key][()].tolist() for key in file["sweep"] if key not in gone))):
-        groups.setdefault(place, []).append(case)
-    return list(groups.values())
-
-
-def _taken(values, groups, take):
-    """One value for each group of cases; none where a case of it has none."""
-    return values if groups is None else np.array([TAKEN[take](values[group]) for group in groups])
-
-
-def _is_logarithmic(file, key):
+def _is_logarithmic(result, key):
     """Does the deck divide the range of a key by equal ratios?"""
-    values = file.get("deck/values", {})
-    for place in range(1, 9):
-        if f"sweep.key_{place}" in values and values[f"sweep.key_{place}"][()].decode() == key:
-            return f"sweep.scale_{place}" in values and values[f"sweep.scale_{place}"][()] == b"logarithmic"
-    return False
+    place = next((name.split("_")[-1] for name in result.deck if name.startswith("sweep.key_") and _words(result, name) == key), "")
+    return _words(result, f"sweep.scale_{place}") == "logarithmic"
 
 
 def suitable_figure(sweep):
@@ -288,7 +242,7 @@ def draw_scatter(sweep):
     rows, columns = len(sweep.quantities), len(sweep.keys)
     figure = Figure(figsize=(2.7 * columns + 0.6, 2.4 * rows + 0.4), layout="constrained")
     grid = figure.subplots(rows, columns, squeeze=False, sharey="row", sharex="col")
-    size = float(np.clip(3e3 / len(sweep.status), 0.3, 12.0))
+    size = float(np.clip(3e3 / len(sweep.failed), 0.3, 12.0))
     for i, name in enumerate(sweep.quantities):
         for j, key in enumerate(sweep.keys):
             axes = grid[i][j]
@@ -356,7 +310,7 @@ def _row(figure, count):
 
 
 def _where_others_are_first(sweep, names):
-    chosen = np.ones(len(sweep.status), dtype=bool)
+    chosen = np.ones(len(sweep.failed), dtype=bool)
     for key, (values, _) in sweep.keys.items():
         if key not in names:
             chosen &= values == values[0]
@@ -377,7 +331,7 @@ def _sideways(sweep, key):
     """Points that share a word, spread evenly beside each other."""
     if key not in sweep.words:
         return 0.0
-    return SPREAD * (2 * ((np.arange(len(sweep.status)) * (5**0.5 - 1) / 2) % 1) - 1)
+    return SPREAD * (2 * ((np.arange(len(sweep.failed)) * (5**0.5 - 1) / 2) % 1) - 1)
 
 
 def _name_axis(sweep, axes, side, name):
@@ -402,9 +356,9 @@ def _note(figure, sweep, shown, more=()):
     """Title of the deck, values of the keys that are not shown, what else is left out, and cases without a result."""
     words = [f"{label} = {sweep.label_value(key, values[0])}" for key, (values, label) in sweep.keys.items() if key not in shown]
     words += [*more, *sweep.remarks]
-    failed = int(np.count_nonzero(sweep.status))
+    failed = int(sweep.failed.sum())
     if failed:
-        words.append(f"{failed} of {len(sweep.status)} cases have no result")
+        words.append(f"{failed} of {len(sweep.failed)} cases have no result")
     width = max(30, int(14 * figure.get_figwidth()))
     figure.suptitle("\n".join([textwrap.fill(sweep.title, width), *textwrap.wrap(", ".join(words), width)]), fontsize=9)
 

@@ -13,6 +13,7 @@ converted here, so all series are in SI units. A file of a sweep may have series
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+import difflib
 import os
 from pathlib import Path
 import re
@@ -93,7 +94,10 @@ class Result:
             raise without_results(self.path, failed[0][1])
 
     def scalar(self, name):
-        """A scalar of the summary for each case; ResultError where it is not one value for each case."""
+        """A scalar of the summary for each case; ResultError where there is none, or not one value for each case."""
+        if name not in self.summary:
+            near = difflib.get_close_matches(name, self.summary, 3) or [other for other in self.summary if name in other][:3]
+            raise ResultError(f"{self.path}: no scalar {name} in the summary" + (f"; there is {', '.join(near)}" if near else ""))
         quantity = self.summary[name]
         if np.shape(quantity.values) != (self.cases,):
             raise ResultError(f"{self.path}: the scalar {name} does not have one value for each of {self.cases} cases")

@@ -15,14 +15,13 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import difflib
 import re
 import sys
 
 import numpy as np
 
 from command import run, whole_number
-from layout import chosen_cases
+from layout import TAKEN, chosen_cases, groups_over
 from read import ResultError, read_result
 from units import factor, fitting_unit, number, with_unit
 
@@ -51,7 +50,6 @@ MOST_ROWS = 50
 SCALAR = re.compile(r'(min|max|mean)_(.+)')
 # Zero where contact is lost: there is no film, which is not a thin one
 SMALLEST_FILM = re.compile(r'min_(.*_)?film_(thickness_min|thickness_central|ratio)$')
-TAKEN = {'largest': np.max, 'smallest': np.min, 'mean': np.mean}
 RANGE = 'range'
 
 
@@ -88,28 +86,8 @@ def worst_of_lobes(result):
     return dataclasses.replace(result, summary={**result.summary, **worst}), line
 
 
-def groups_over(result, cases, over) -> list[list[int]]:
-    """Chosen cases that differ in some swept keys only, each group in the order of its cases."""
-    wanted = [matching_key(result, name) for name in over]
-    groups: dict[tuple, list[int]] = {}
-    for case in cases:
-        groups.setdefault(tuple(result.value_of(key, case) for key in result.sweep if key not in wanted), []).append(case)
-    return list(groups.values())
-
-
-def matching_key(result, name) -> str:
-    """The swept key with this name or last part."""
-    found = [key for key in result.sweep if name in (key, key.split('.')[-1])]
-    if len(found) != 1:
-        raise ResultError(f"{result.path}: --over: '{name}' is not one of the swept keys: {', '.join(result.sweep) or 'there is none'}")
-    return found[0]
-
-
 def column_of(result, name, groups, take, heading=None, unit=None) -> list[str]:
     """Heading and cells of a scalar, one for each group of cases, in the unit given, or in one that suits its values."""
-    if name not in result.summary:
-        near = difflib.get_close_matches(name, result.summary, 3) or [other for other in result.summary if name in other][:3]
-        raise ResultError(f'{result.path}: no scalar {name} in the summary' + (f'; there is {", ".join(near)}' if near else ''))
     quantity = result.scalar(name)
     if quantity.values.dtype.kind not in 'fiu':
         return [heading or name, *(', '.join(dict.fromkeys(str(value) for value in quantity.values[group])) for group in groups)]
@@ -148,10 +126,9 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
     cases = chosen_cases(result, selections)
     if not cases:
         raise ResultError('no case is left: see --cases')
-    groups = groups_over(result, cases, over) if over else [[case] for case in cases]
+    gone, groups = groups_over(result, cases, over)
     shown = groups[:rows]
     last = [key.split('.')[-1] for key in result.sweep]
-    gone = [matching_key(result, name) for name in over]
     made = [['case', *(str(group[0]) for group in shown)]] if not over and (selections or not result.is_grid()) else []
     made += [[name if last.count(name) == 1 else key, *(plain(result.value_of(key, group[0])) for group in shown)]
              for key, name in zip(result.sweep, last) if key not in gone]

@@ -10,7 +10,10 @@ from plot_sweep import FIGURES, Sweep, draw_curves, draw_map, draw_parallel, dra
 def write(path, columns, torque, status=None):
     """A file with these swept columns and this torque."""
     with h5py.File(path, "w") as file:
-        sweep = file.create_group("sweep", track_order=True)
+        file.attrs["complete"] = 1
+        file.create_group("series")
+        file["deck/text"] = "&sweep " + " ".join(columns)
+        sweep = file.create_group("sweep")
         for key, (values, unit) in columns.items():
             data = sweep.create_dataset(key, data=values)
             data.attrs["units"] = unit
@@ -98,14 +101,14 @@ def test_operating_points_of_a_design_count_as_one(grid, capsys):
     whole = Sweep(grid, ["mean_torque_drive"])
     for take, function in (("largest", np.max), ("smallest", np.min), ("mean", np.mean)):
         worst = Sweep(grid, ["mean_torque_drive"], [], ["speed_rpm"], take)
-        assert list(worst.keys) == ["operating_point.oil_temperature_degC", "film.law"] and len(worst.status) == 18
+        assert list(worst.keys) == ["operating_point.oil_temperature_degC", "film.law"] and len(worst.failed) == 18
         values, label = worst.quantities["mean_torque_drive"]
         assert label == f"{take} mean torque drive [N m]"
         for value, temperature, law in zip(values, worst.keys["operating_point.oil_temperature_degC"][0], worst.keys["film.law"][0]):
             own = (whole.keys["operating_point.oil_temperature_degC"][0] == temperature) & (whole.keys["film.law"][0] == law)
             # a design of which one point has no result has no value
             assert np.array_equal(value, function(whole.quantities["mean_torque_drive"][0][own]), equal_nan=True)
-        assert np.isnan(values).sum() == 1 and worst.is_grid() and worst.status.sum() == 1
+        assert np.isnan(values).sum() == 1 and worst.is_grid() and worst.failed.sum() == 1
     bounded = Sweep(grid, ["mean_torque_drive"], ["mean_torque_drive < 12"], ["speed_rpm"], "largest")
     kept = np.isfinite(bounded.quantities["mean_torque_drive"][0])
     assert np.array_equal(kept, Sweep(grid, ["mean_torque_drive"], [], ["speed_rpm"]).quantities["mean_torque_drive"][0] < 12)
@@ -134,7 +137,8 @@ def test_ranges_divided_by_equal_ratios_are_logarithmic(grid):
     edges = axes.collections[0].get_coordinates()[0, :, 0]
     assert np.allclose(edges[1:-1] ** 2, np.linspace(300, 900, 10)[1:] * np.linspace(300, 900, 10)[:-1])
     assert draw_curves(sweep).axes[0].get_xscale() == "log"
-    assert "\nlogarithmic" in draw_parallel(sweep).axes[0].get_xticklabels()[0].get_text()
+    labels = [label.get_text() for label in draw_parallel(sweep).axes[0].get_xticklabels()]
+    assert [label.startswith("speed") for label in labels] == ["\nlogarithmic" in label for label in labels]
 
 
 def test_words_are_curves_or_stand_apart(tmp_path):
@@ -165,11 +169,24 @@ def test_what_does_not_suit_is_told(sample, capsys, arguments, words):
     assert words in capsys.readouterr().err
 
 
-def test_what_is_no_sweep(tmp_path, capsys):
+def test_what_is_no_sweep_or_not_complete(grid, tmp_path, capsys):
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = 1
-    assert main([str(tmp_path / "other.h5")]) == 2
-    assert "is no result of a sweep" in capsys.readouterr().err
+    write(tmp_path / "one.h5", {}, [1.0])
+    with h5py.File(grid, "a") as file:
+        file.attrs["complete"] = 0
+    for name, words in (("other.h5", "not a result file of camroller"), ("one.h5", "nothing varies"), ("grid.h5", "not complete")):
+        assert main([str(tmp_path / name)]) == 2
+        assert words in capsys.readouterr().err
+    assert not list(tmp_path.glob("*.png"))
+
+
+def test_a_valve_that_never_meets_its_seat_has_no_speed(grid):
+    with h5py.File(grid, "a") as file:
+        file["summary/seating_speed"] = np.where(np.arange(180) == 7, 0.0, 0.0659)
+        file["summary/seating_speed"].attrs["units"] = "m s-1"
+    values, label = Sweep(grid, ["seating_speed"]).quantities["seating_speed"]
+    assert label == "seating speed [mm/s]" and np.flatnonzero(np.isnan(values)).tolist() == [7] and np.nanmin(values) == pytest.approx(65.9)
 
 
 def test_conditions_leave_out_cases_and_are_told(grid, capsys):
