@@ -246,8 +246,9 @@ bench-hosts: setup ## cost of a step of a host, instructions, allocations, time:
 	@$(PYTHON) bench/hosts.py build/bench/prefix build/bench/hosts > build/bench/hosts.part && mv build/bench/hosts.part bench/tables/hosts.txt
 	@cat bench/tables/hosts.txt
 
+# all but what the set-up and fpm fetch or note there
 clean: ## remove built files; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/counted build/sanitize build/docs build/docs-source build/second build/example build/package build/recipes build/commit build/tests build/bench bench/build build/mpi build/*.log build/compile_commands.json
+	rm -rf bench/build $(filter-out $(addprefix build/,dependencies pkgconfig cache.toml without-open-mpi),$(wildcard build/*))
 
 distclean: ## remove everything that is not in git, results too
 	rm -rf build bench/build .venv results

@@ -231,6 +231,18 @@ def test_objects_of_moved_sources_are_not_linked(tmp_path):
     assert list((tmp_path / "build/gfortran_2/camroller").iterdir()) == []
 
 
+def test_clean_keeps_what_was_fetched_and_results(tmp_path):
+    kept = ["build/cache.toml", "build/dependencies/a", "build/pkgconfig/hdf5.pc", "build/without-open-mpi", "results/a.h5"]
+    built = ["build/cmake/Makefile", "build/cmake-tests/Makefile", "build/cmake.lock", "build/gfortran_1/a.o", "build/scratch-1-a",
+             "build/test.log", "bench/build/a.o"]
+    for name in kept + built:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    subprocess.run(["make", "-f", ROOT / "Makefile", "clean"], cwd=tmp_path, check=True, capture_output=True)
+    assert sorted(str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()) == kept
+    assert len(list((tmp_path / "build").iterdir())) == 4
+
+
 def test_the_list_of_planted_faults_fits_the_sources():
     """Each text stands once in its file, and the test that is to fail is there and is not the stored table of results."""
     suites = (ROOT / "test/main.f90").read_text()
