@@ -142,22 +142,22 @@ install: ## libraries, header, modules and program by CMake, into PREFIX=/usr/lo
 test: build debug mpi ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py
 
-random: commit ## random cases by two integration methods, optimised build: CASES=20000 SEED=1; failures print a deck
+random: commit ## random cases by two integration methods: CASES=20000 SEED=1; failures print a deck
 	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(OPTIMISED_FLAGS)" -- random_cases
 
-random-ehl: commit ## random cases with a numerical film, as film law and over the cycle: CASES=200 SEED=1; failures print a deck
+random-ehl: commit ## random cases with a numerical film, as film law and over the cycle: CASES=200 SEED=1, TABLE=1 for a line of each; failures print a deck
 	@OPENBLAS_NUM_THREADS=1 RANDOM_EHL_CASES=$(or $(CASES),200) RANDOM_EHL_SEED=$(or $(SEED),1) RANDOM_EHL_TABLE=$(or $(TABLE),0) $(FPM) test \
 	  --flag "$(OPTIMISED_FLAGS)" -- random_ehl
 
-random-wide: commit ## random cases with all options of a deck, optimised build: CASES=20000 SEED=1 FOLDER= for decks that fail
+random-wide: commit ## random cases with all options of a deck: CASES=20000 SEED=1 FOLDER= for decks that fail
 	@WIDE_CASES=$(or $(CASES),20000) WIDE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
 	  --flag "$(OPTIMISED_FLAGS)" -- random_wide
 
-random-hosts: commit ## random rigid followers stepped by a host against their runs, optimised build: CASES=1000 SEED=1 FOLDER= for decks that fail
+random-hosts: commit ## random rigid followers stepped by a host against their runs: CASES=1000 SEED=1 FOLDER= for decks that fail
 	@HOST_CASES=$(or $(CASES),1000) HOST_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
 	  --flag "$(OPTIMISED_FLAGS)" -- random_hosts
 
-random-flexible: commit ## random flexible trains by two methods, optimised build: CASES=100 SEED=1 FOLDER= for decks that fail, DECK= for one of them, ACCURACY= in the place of a tolerance of 1e-3
+random-flexible: commit ## random flexible trains by two methods: CASES=100 SEED=1 FOLDER= for decks that fail, DECK= for one of them, ACCURACY= in the place of a tolerance of 1e-3
 	@FLEXIBLE_CASES=$(or $(CASES),100) FLEXIBLE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") \
 	  $(if $(DECK),FLEXIBLE_DECK="$(DECK)") $(if $(ACCURACY),FLEXIBLE_ACCURACY=$(ACCURACY)) $(FPM) test \
 	  --flag "$(OPTIMISED_FLAGS)" -- random_flexible

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Build the benchmarks, run all of them, rewrite the tables and plots in bench/tables.
 #
-# Usage: make bench          five minutes on an idle machine
+# Usage: make bench          all but the following, on an idle machine
 #        make bench-ehl      the numerical film alone: cost over nodes
 #        make bench-dynamics   a cycle of flexible trains beside CVODE and scipy
 #        make range-ehl      its whole range: NODES=1025 FIRST=1 STRIDE=1
