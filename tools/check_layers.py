@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Check that `use` lines point down the folders only and never run in a circle.
+"""Check that `use` lines point down the folders only and never run in a circle, and that folders use all that they may.
 
 Usage: tools/check_layers.py [--root DIR] [--show]
 
@@ -75,6 +75,13 @@ def find_faults(tree, table: dict[str, set[str]], root: pathlib.Path) -> list[st
     return faults
 
 
+def unused_rights(tree, table: dict[str, set[str]], root: pathlib.Path) -> list[str]:
+    """What rows of the table allow and no file of their folder does; the row that allows all is not meant."""
+    used = {(folder_of(path, root), folder_of(target, root)) for path, uses in tree.items() for _, _, target in uses}
+    return [f"CONTRIBUTING.md: folder '{name}' may use '{other}', which none of its files does"
+            for name, uses in table.items() if uses < set(table) for other in sorted(uses - {name}) if (name, other) not in used]
+
+
 def find_circle(tree) -> list[pathlib.Path]:
     """One circle of files that use each other; empty where there is none."""
     done: set[pathlib.Path] = set()
@@ -98,7 +105,7 @@ def find_circle(tree) -> list[pathlib.Path]:
 
 def main(arguments=None) -> int:
     """Command line; returns the exit code."""
-    parser = argparse.ArgumentParser(description="check that use lines only point down the folders")
+    parser = argparse.ArgumentParser(description="check that use lines only point down the folders, and that folders use all that they may")
     parser.add_argument("--root", type=pathlib.Path, default=ROOT, help="top folder of the project")
     parser.add_argument("--show", action="store_true", help="list what each file uses")
     options = parser.parse_args(arguments)
@@ -107,7 +114,7 @@ def main(arguments=None) -> int:
     if options.show:
         for path in tree:
             print(path.relative_to(root), "->", ", ".join(sorted({t.stem for _, _, t in tree[path]})) or "nothing")
-    faults = table_faults(table) + find_faults(tree, table, root)
+    faults = table_faults(table) + find_faults(tree, table, root) + unused_rights(tree, table, root)
     if circle := find_circle(tree):
         faults.append("circle: " + " -> ".join(str(path.relative_to(root)) for path in circle))
     for fault in faults:
