@@ -1,4 +1,4 @@
-"""Shared by all Python tests: the program under test, the installed library."""
+"""Shared by all Python tests: commands that are run, the program under test, the installed library."""
 
 import contextlib
 import fcntl
@@ -27,6 +27,26 @@ def heed_signals() -> None:
 
 
 heed_signals()
+
+
+def run(program, *arguments, folder=ROOT, **options):
+    """Run a command without a terminal and wait for it; a list is a program with its first arguments."""
+    words = [str(word) for word in (*(program if isinstance(program, list) else [program]), *arguments)]
+    source = {} if "input" in options else {"stdin": subprocess.DEVNULL}
+    usual = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "timeout": 600, **source}
+    return subprocess.run(words, cwd=folder, check=False, **(usual | options))
+
+
+def done(program, *arguments, code=0, **options):
+    """Run a command that must end with this exit code."""
+    result = run(program, *arguments, **options)
+    assert result.returncode == code, f"{result.stdout}{result.stderr}"
+    return result
+
+
+def printed(program, *arguments, **options):
+    """What a command prints that must end well, however long it takes."""
+    return done(program, *arguments, timeout=None, **options).stdout
 
 
 @pytest.fixture(scope="session")
@@ -71,11 +91,10 @@ def alone_in_cmake():
 
 def _install(cmake: str, place: pathlib.Path, io: str) -> None:
     """Configure, build and install."""
-    for command in ([cmake, "-G", "Unix Makefiles", "-S", ROOT, "-B", CMAKE_BUILD, f"-D{CMAKE_FLAGS}", f"-DCAMROLLER_IO={io}",
-                     "-DCMAKE_INSTALL_LIBDIR=lib", "-DCAMROLLER_BUNDLE_DIR=lib/camroller", f"-DCMAKE_INSTALL_PREFIX={place}"],
-                    [cmake, "--build", CMAKE_BUILD, "-j2"], [cmake, "--install", CMAKE_BUILD]):
-        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stdout + done.stderr
+    printed(cmake, "-G", "Unix Makefiles", "-S", ROOT, "-B", CMAKE_BUILD, f"-D{CMAKE_FLAGS}", f"-DCAMROLLER_IO={io}",
+            "-DCMAKE_INSTALL_LIBDIR=lib", "-DCAMROLLER_BUNDLE_DIR=lib/camroller", f"-DCMAKE_INSTALL_PREFIX={place}")
+    printed(cmake, "--build", CMAKE_BUILD, "-j2")
+    printed(cmake, "--install", CMAKE_BUILD)
 
 
 @pytest.fixture(scope="session")

@@ -1,12 +1,10 @@
-"""Shared by the tests of sweeps: a deck that is quick to compute, runs of it, comparison of files bit by bit."""
-
-import pathlib
-import subprocess
+"""Shared by the tests of sweeps: a deck that is quick to compute, comparison of files bit by bit."""
 
 import h5py
 import numpy
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT
+
 THESIS = ROOT / "decks/thesis.nml"
 GRID = ("key_1 = 'operating_point.speed_rpm' from_1 = 400 to_1 = 900 count_1 = 6 "
         "key_2 = 'operating_point.oil_temperature_degC' values_2 = 40, 60, 80, 100")
@@ -22,19 +20,6 @@ def write_deck(path, sweep=GRID):
     text = text[:text.index("&sweep")]
     path.write_text(f"{text}&output angle_step_deg = 10 /\n&numerics accuracy = 1e-3 /\n&sweep\n   {sweep}\n/\n")
     return path
-
-
-def run(program, *arguments, folder, **options):
-    """Run a command and wait for it."""
-    command = [*([program] if isinstance(program, str) else program), *map(str, arguments)]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=300, **options)
-
-
-def done(program, *arguments, folder, **options):
-    """Run a command that must end well."""
-    result = run(program, *arguments, folder=folder, **options)
-    assert result.returncode == 0, result.stderr
-    return result
 
 
 def content(path):

@@ -1,21 +1,13 @@
 """The command `audit` and the choice of effects from outside: table, file, decisions."""
 
-import pathlib
-import subprocess
-
 import h5py
 import numpy
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, run
+
 THESIS = (ROOT / "decks/thesis.nml").read_text()
 NAMES = ["asperity", "needle_bearing", "valve_guide", "cam_bearings", "rolling_resistance", "roller_equation"]
-
-
-def start(camroller, *arguments, folder):
-    """Run the program without a terminal."""
-    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
-                          stdin=subprocess.DEVNULL, timeout=600)
 
 
 @pytest.fixture(scope="module", name="folder")
@@ -34,7 +26,7 @@ def words(dataset):
 
 
 def test_an_audit_has_a_run_without_each_effect(camroller, folder):
-    result = start(camroller, "audit", "one.nml", "--repeats", "1", folder=folder)
+    result = run(camroller, "audit", "one.nml", "--repeats", "1", folder=folder)
     assert result.returncode == 0, result.stderr
     assert max(map(len, result.stdout.splitlines())) <= 132
     assert "changes are within their estimates" in result.stdout
@@ -55,27 +47,27 @@ def test_an_audit_keeps_all_cams_without_their_bearings(camroller, folder):
     """Runs of one cam and of two that do the same: torques of two are twice those of one, effect by effect."""
     tables = []
     for name, cams in (("single", "30"), ("double", "20, 40")):
-        result = start(camroller, "audit", "one.nml", "--repeats", "1", "--set", f"cam_bearings.cam_positions_mm={cams}",
-                       "-o", f"{name}.h5", folder=folder)
+        result = run(camroller, "audit", "one.nml", "--repeats", "1", "--set", f"cam_bearings.cam_positions_mm={cams}",
+                     "-o", f"{name}.h5", folder=folder)
         assert result.returncode == 0, result.stderr
         with h5py.File(folder / f"{name}.h5") as file:
             table = {column: file["study/audit"][column][()] for column in ("mean_torque", "minimum_film", "slip", "status")}
             runs = list(zip(words(file["study/audit/run"]), words(file["study/audit/effect"])))
         assert (table["status"] == 0).all()
-        tables.append({run: [table[name][row] for name in ("mean_torque", "minimum_film", "slip")] for row, run in enumerate(runs)})
+        tables.append({key: [table[name][row] for name in ("mean_torque", "minimum_film", "slip")] for row, key in enumerate(runs)})
     single, double = tables
-    without = [run for run in single if run[0] in ("none", "alone") or run == ("without", "cam_bearings")]
+    without = [key for key in single if key[0] in ("none", "alone") or key == ("without", "cam_bearings")]
     assert len(without) > 4
-    for run in without:
+    for key in without:
         # twice one and the same number, up to rounding
-        assert double[run][0] == pytest.approx(2 * single[run][0], rel=1e-12), run
-        assert double[run][1:] == single[run][1:], run
+        assert double[key][0] == pytest.approx(2 * single[key][0], rel=1e-12), key
+        assert double[key][1:] == single[key][1:], key
 
 
 def test_an_audit_takes_the_friction_of_bearings_from_two_lobe_shapes(camroller, tmp_path):
     deck = [str(ROOT / "decks/three_cam_head.nml"), "--set", "operating_point.speed_rpm=600"]
     for command in (["audit", *deck, "--repeats", "1", "-o", "audit.h5"], ["run", *deck, "-o", "run.h5"]):
-        result = start(camroller, *command, folder=tmp_path)
+        result = run(camroller, *command, folder=tmp_path)
         assert result.returncode == 0, result.stderr
     with h5py.File(tmp_path / "audit.h5") as file, h5py.File(tmp_path / "run.h5") as whole:
         table = file["study/audit"]
@@ -87,9 +79,9 @@ def test_an_audit_takes_the_friction_of_bearings_from_two_lobe_shapes(camroller,
 
 
 def test_file_has_the_choice_of_effects_and_no_numbers_where_an_effect_is_left_out(camroller, folder):
-    result = start(camroller, "run", "two.nml", "--set", "effects.select=needed", folder=folder)
+    result = run(camroller, "run", "two.nml", "--set", "effects.select=needed", folder=folder)
     assert result.returncode == 0, result.stderr
-    listed = start(camroller, "run", "two.nml", "-o", "listed.h5", folder=folder)
+    listed = run(camroller, "run", "two.nml", "-o", "listed.h5", folder=folder)
     assert listed.returncode == 0, listed.stderr
     with h5py.File(folder / "two.h5") as file, h5py.File(folder / "listed.h5") as other:
         effects = file["effects"]
@@ -103,14 +95,14 @@ def test_file_has_the_choice_of_effects_and_no_numbers_where_an_effect_is_left_o
 
 
 def test_a_single_case_has_no_dataset_for_effects_left_out(camroller, folder):
-    assert start(camroller, "run", "one.nml", "--set", "effects.select=needed", folder=folder).returncode == 0
+    assert run(camroller, "run", "one.nml", "--set", "effects.select=needed", folder=folder).returncode == 0
     with h5py.File(folder / "one.h5") as file:
         assert "asperity_load" not in file["series"] and "mean_asperity_load" not in file["summary"]
 
 
 def test_check_prints_which_effects_are_left_out(camroller, folder):
-    result = start(camroller, "check", "two.nml", "--set", "effects.select=needed", folder=folder)
+    result = run(camroller, "check", "two.nml", "--set", "effects.select=needed", folder=folder)
     assert result.returncode == 0, result.stderr
     assert result.stdout.count("asperity            left out") == 1 and result.stdout.count("asperity            kept") == 1
     assert "film ratio from" in result.stdout
-    assert "left out" not in start(camroller, "check", "two.nml", folder=folder).stdout
+    assert "left out" not in run(camroller, "check", "two.nml", folder=folder).stdout

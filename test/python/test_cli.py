@@ -1,21 +1,14 @@
 """The program from outside: commands, options, exit codes, where text goes."""
 
-import pathlib
 import re
 import socket
-import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, run
+
 DECKS = sorted((ROOT / "decks").glob("*.nml"))
 USAGE, DECK, FILE = 2, 3, 6
-
-
-def run(camroller, *arguments, folder=ROOT):
-    """Run the program without a terminal."""
-    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
-                          stdin=subprocess.DEVNULL, timeout=60)
 
 
 def refused(result, code):

@@ -7,7 +7,8 @@ import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, run
+
 THESIS = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
 TABULATED = (ROOT / "decks/tabulated_lift.nml").read_text(encoding="utf-8")
 LIFT = (ROOT / "decks/tables/polynomial_lift.txt").read_text(encoding="utf-8")
@@ -17,8 +18,7 @@ DECK, FILE = 3, 6
 
 def check(camroller, path, *options):
     """Check a deck."""
-    return subprocess.run([camroller, "check", str(path), *options], cwd=ROOT, capture_output=True, text=True,
-                          stdin=subprocess.DEVNULL, timeout=60)
+    return run(camroller, "check", path, *options)
 
 
 def check_table(camroller, folder, table):
@@ -205,8 +205,7 @@ def test_a_message_on_impossible_geometry_has_values_keys_and_lines(camroller, t
     path = ROOT / "decks/thesis.nml"
     changes = [word for option in options for word in ("--set", option)]
     for command in (["check", path], ["run", path, "-o", tmp_path / "x.h5"]):
-        result = subprocess.run([camroller, *map(str, command), *changes], cwd=ROOT, capture_output=True, text=True,
-                                stdin=subprocess.DEVNULL, timeout=60)
+        result = run(camroller, *command, *changes)
         assert result.returncode in (DECK, 4)
         lines = [line for line in result.stderr.splitlines() if not line.startswith("remark: ")]  # on numbers that are unusual
         assert words in lines[0]

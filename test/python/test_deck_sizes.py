@@ -5,12 +5,11 @@ Reading takes a time that grows as the size. What grows as its square takes minu
 """
 
 import itertools
-import pathlib
-import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, run
+
 THESIS = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
 MEGABYTE = 2**20
 LIMIT = 60.0
@@ -64,8 +63,7 @@ LARGE = {
 
 def read(camroller, path, *options):
     """Check a deck within the limit."""
-    return subprocess.run([camroller, "check", str(path), *options], cwd=ROOT, capture_output=True, text=True, errors="strict",
-                          stdin=subprocess.DEVNULL, timeout=LIMIT)
+    return run(camroller, "check", path, *options, timeout=LIMIT)
 
 
 @pytest.mark.parametrize("name", LARGE)

@@ -1,30 +1,23 @@
 """The engine: cams by cylinder, phases from the firing order, results of followers, camshafts and engine that agree."""
 
-import pathlib
 import re
-import subprocess
 
 import h5py
 import numpy as np
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, done, run
+
 DECK = ROOT / "decks/four_cylinder.nml"
 # means are integrated to the accuracy asked for, 1e-4; these relations hold between numbers of one integration
 ROUND_OFF = 1e-10
-
-
-def run(camroller, *arguments):
-    result = subprocess.run([camroller, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, check=False)
-    assert result.returncode == 0, result.stderr
-    return result
 
 
 @pytest.fixture(scope="module", name="result")
 def one_point(camroller, tmp_path_factory):
     """Engine at 2000 rev/min of the crankshaft and 90 degC."""
     path = tmp_path_factory.mktemp("engine") / "engine.h5"
-    run(camroller, "run", DECK, "-o", path, "--quiet", "--set", "sweep.values_1=2000", "--set", "sweep.values_2=90")
+    done(camroller, "run", DECK, "-o", path, "--quiet", "--set", "sweep.values_1=2000", "--set", "sweep.values_2=90")
     with h5py.File(path) as file:
         yield {
             "series": {name: data[0] for name, data in file["series"].items() if data.ndim == 2},
@@ -48,8 +41,8 @@ def test_a_camshaft_bears_its_own_cams_alone(camroller, tmp_path):
     series = []
     for lift in (8.6, 7.6):
         path = tmp_path / f"{lift}.h5"
-        run(camroller, "run", DECK, "-o", path, "--quiet", "--no-sweep", "--set", f"second_lift.max_lift_mm={lift}",
-            "--set", "cam_bearings.bearing_series=.true.", "--set", "output.angle_step_deg=10", "--set", "numerics.accuracy=1e-3")
+        done(camroller, "run", DECK, "-o", path, "--quiet", "--no-sweep", "--set", f"second_lift.max_lift_mm={lift}",
+             "--set", "cam_bearings.bearing_series=.true.", "--set", "output.angle_step_deg=10", "--set", "numerics.accuracy=1e-3")
         with h5py.File(path) as file:
             series.append({name: data[0] for name, data in file["series"].items() if name.startswith("camshaft_")})
     for name, before in series[0].items():
@@ -107,7 +100,7 @@ def test_firing_order_gives_the_phases(camroller, tmp_path):
     other.write_text(plain, encoding="utf-8")
     values = []
     for deck in (engine, other):
-        run(camroller, "run", deck, "-o", tmp_path / "a.h5", "--quiet")
+        done(camroller, "run", deck, "-o", tmp_path / "a.h5", "--quiet")
         with h5py.File(tmp_path / "a.h5") as file:
             values.append({name: file["series"][name][0] for name in ("torque_drive", "torque_bearings", "torque_friction")})
     for name, value in values[0].items():
@@ -128,21 +121,21 @@ def test_contradicting_keys_are_refused(camroller, tmp_path, old, new, words):
     assert old in text
     deck = tmp_path / "deck.nml"
     deck.write_text(text.replace(old, new), encoding="utf-8")
-    result = subprocess.run([camroller, "check", str(deck)], capture_output=True, text=True, check=False)
+    result = run(camroller, "check", deck)
     assert result.returncode == 3 and words in result.stderr, result.stderr
 
 
 def test_remarks_and_facts_state_crankshaft_speeds(camroller, tmp_path):
     """Contact is lost above half the number of turns of the crankshaft: the words say whose turns they are."""
     path = tmp_path / "fast.h5"
-    words = run(camroller, "run", DECK, "-o", path, "--set", "sweep.values_1=9000", "--set", "sweep.values_2=90").stderr
+    words = done(camroller, "run", DECK, "-o", path, "--set", "sweep.values_1=9000", "--set", "sweep.values_2=90").stderr
     lost = re.search(r"at 9000 rev/min of the crankshaft, .* lost above (\d+) rev/min of the crankshaft", words)
     with h5py.File(path) as file:
         speeds = [file["summary"][name][0] for name in ("contact_loss_speed", "lobe_2_contact_loss_speed")]
     # four digits are shown
     assert float(lost[1]) == pytest.approx(2 * min(speeds) * 30 / np.pi, rel=1e-3) or \
         float(lost[1]) == pytest.approx(2 * max(speeds) * 30 / np.pi, rel=1e-3)
-    facts = run(camroller, "check", DECK, "--no-sweep").stdout
+    facts = done(camroller, "check", DECK, "--no-sweep").stdout
     assert "cam speed 1000 rev/min (2000 rev/min of the crankshaft)" in facts
     assert "rev/min of the camshaft" not in facts
 
@@ -164,9 +157,9 @@ def test_gas_presses_the_valves_of_a_cylinder_at_the_same_crank_angle(camroller,
     series = []
     for scale in (1, 1e-6):
         (tmp_path / "deck.nml").write_text(text, encoding="utf-8")
-        run(camroller, "run", tmp_path / "deck.nml", "-o", tmp_path / "r.h5", "--quiet", "--set", f"mechanism.rotation={rotation}",
-            "--set", "spring.seat_stiffness_N_m=1e9", "--set", f"gas_force.valve_diameter_mm={30 * scale}",
-            "--set", f"gas_force.second_valve_diameter_mm={26 * scale}")
+        done(camroller, "run", tmp_path / "deck.nml", "-o", tmp_path / "r.h5", "--quiet", "--set", f"mechanism.rotation={rotation}",
+             "--set", "spring.seat_stiffness_N_m=1e9", "--set", f"gas_force.valve_diameter_mm={30 * scale}",
+             "--set", f"gas_force.second_valve_diameter_mm={26 * scale}")
         with h5py.File(tmp_path / "r.h5") as file:
             series.append({name: file["series"][name][...].ravel() for name in ("torque_geometric", "valve_lift", "lobe_2_valve_lift")})
     found = series[0]["torque_geometric"] - series[1]["torque_geometric"]

@@ -5,19 +5,13 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import subprocess
 import sys
 
 import pytest
 
+from conftest import printed
+
 WORDS = re.compile(r"cycle (\d) drive +(\S+) friction +(\S+) bearings +(\S+)")
-
-
-def run(*command, **options):
-    """Run a command that must succeed; its output."""
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +26,7 @@ def place(cmake_prefix, tmp_path_factory):
 @pytest.fixture(scope="module")
 def built(place, cmake_prefix):
     """Both hosts by make and pkg-config."""
-    run("make", "-j2", cwd=place, env={**os.environ, "PKG_CONFIG_PATH": str(cmake_prefix / "lib" / "pkgconfig")})
+    printed("make", "-j2", folder=place, env={**os.environ, "PKG_CONFIG_PATH": str(cmake_prefix / "lib" / "pkgconfig")})
     return place
 
 
@@ -42,28 +36,29 @@ def numbers(text):
 
 
 def test_hosts_in_fortran_and_c_get_the_same_torques_with_any_threads(built):
-    one = numbers(run(built / "engine_host_fortran", "engine.nml", 1, 1, cwd=built))
+    one = numbers(printed(built / "engine_host_fortran", "engine.nml", 1, 1, folder=built))
     assert len(one) == 1 and 0.0 < one[0][2] < one[0][1]
-    assert numbers(run(built / "engine_host_fortran", "engine.nml", 1, 3, cwd=built)) == one
+    assert numbers(printed(built / "engine_host_fortran", "engine.nml", 1, 3, folder=built)) == one
     # the mathematical functions of C and Fortran may differ in the last digit of a pressure
-    assert numbers(run(built / "engine_host_c", "engine.nml", 1, 2, cwd=built))[0] == pytest.approx(one[0], rel=1e-9)
+    assert numbers(printed(built / "engine_host_c", "engine.nml", 1, 2, folder=built))[0] == pytest.approx(one[0], rel=1e-9)
 
 
 def test_a_cmake_project_builds_both_hosts(place, cmake_prefix):
-    run("cmake", "-B", "build", f"-DCMAKE_PREFIX_PATH={cmake_prefix}", cwd=place)
-    run("cmake", "--build", "build", "-j2", cwd=place)
+    printed("cmake", "-B", "build", f"-DCMAKE_PREFIX_PATH={cmake_prefix}", folder=place)
+    printed("cmake", "--build", "build", "-j2", folder=place)
     for name in ("engine_host_fortran", "engine_host_c"):
-        run("ldd", place / "build" / name)
+        printed("ldd", place / "build" / name)
 
 
 def test_the_script_in_python_gets_what_the_hosts_get(built, installed_package):
-    friction = numbers(run(built / "engine_host_c", "engine.nml", 1, 2, cwd=built))[0][1]
-    text = run(sys.executable, built / "engine_host.py", built / "engine.nml", env={**os.environ, "PYTHONPATH": str(installed_package)})
+    friction = numbers(printed(built / "engine_host_c", "engine.nml", 1, 2, folder=built))[0][1]
+    text = printed(sys.executable, built / "engine_host.py", built / "engine.nml",
+                   env={**os.environ, "PYTHONPATH": str(installed_package)})
     # steps twice as long
     assert float(re.search(r"friction (\S+) N m, of", text).group(1)) == pytest.approx(friction, rel=1e-3)
 
 
 def test_fmpy_runs_the_engine(place, camroller, cmake_prefix):
-    run(camroller, "fmu", "engine.nml", "--library", cmake_prefix / "lib" / "camroller", cwd=place)
-    text = run(sys.executable, "engine_host_fmu.py", "engine.fmu", cwd=place)
+    printed(camroller, "fmu", "engine.nml", "--library", cmake_prefix / "lib" / "camroller", folder=place)
+    text = printed(sys.executable, "engine_host_fmu.py", "engine.fmu", folder=place)
     assert 0.1 < float(re.search(r"friction (\S+) N m", text).group(1)) < 1.0

@@ -1,15 +1,14 @@
 """What every writer says and leaves where the device takes nothing, and where nobody reads."""
 
 import os
-import pathlib
 import stat
 import subprocess
 
 import pytest
 
+from conftest import ROOT, run
 from sweeps import EARLIER_RESULT
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 FILE_ERROR, UNFINISHED = 6, 8  # exit codes
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
 ONE = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
@@ -26,13 +25,6 @@ PRINTED = {
     "merge": ["merge", "deck.nml", "-o", "parted.h5", "--partial", *COARSE],
     "ehl": ["ehl", "film.nml", "-o", "new.h5", "--set", "sweep.values_1=300", *COARSE],
 }
-
-
-def run(camroller, *arguments, folder, **options):
-    """Run the program in a folder."""
-    options = {"stdout": subprocess.PIPE} | options
-    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                          text=True, check=False, timeout=120, **options)
 
 
 @pytest.fixture(scope="module")

@@ -7,25 +7,20 @@ import subprocess
 
 import pytest
 
-
-def run(*command, **options):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+from conftest import printed
 
 
 def complete(script, *words):
     """What bash offers for the last of some words."""
     line = f"source {script}; COMP_WORDS=({' '.join(repr(word) for word in words)}); COMP_CWORD={len(words) - 1}; " \
            "_camroller 2> /dev/null; printf '%s\\n' \"${COMPREPLY[@]}\""
-    return run("bash", "-c", line).split()
+    return printed("bash", "-c", line, folder=script.parent).split()
 
 
-def test_completion_knows_commands_options_and_files(camroller, tmp_path, monkeypatch):
+def test_completion_knows_commands_options_and_files(camroller, tmp_path):
     script = tmp_path / "completion"
-    script.write_text(run(camroller, "help", "--completion"))
+    script.write_text(printed(camroller, "help", "--completion"))
     (tmp_path / "deck.nml").write_text("")
-    monkeypatch.chdir(tmp_path)
     assert complete(script, "camroller", "s") == ["sweep", "study", "selftest"]
     assert complete(script, "camroller", "fmu", "--li") == ["--library"]
     assert complete(script, "camroller", "run", "de") == ["deck.nml"]
@@ -33,7 +28,7 @@ def test_completion_knows_commands_options_and_files(camroller, tmp_path, monkey
     assert complete(script, "camroller", "help", "fm") == ["fmu"]
     # every command and every option that the program itself lists
     for command in complete(script, "camroller", ""):
-        text = run(camroller, "help", command)
+        text = printed(camroller, "help", command)
         for option in complete(script, "camroller", command, "--"):
             assert option in text, (command, option)
 
@@ -42,8 +37,8 @@ def test_manual_page_is_one_and_names_all_commands(camroller, tmp_path):
     if shutil.which("man") is None or shutil.which("groff") is None:
         pytest.skip("there is no man here")
     page = tmp_path / "camroller.1"
-    page.write_text(run(camroller, "help", "--man"))
+    page.write_text(printed(camroller, "help", "--man"))
     done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", str(page)], capture_output=True, text=True, check=False)
     assert done.returncode == 0 and done.stderr == ""
     for word in ("fmu DECK", "--shard", "EXIT STATUS", "group.key=value"):
-        assert word in run("man", "-l", "-P", "cat", page, env={"MANWIDTH": "200", "PATH": "/usr/bin:/bin"}).replace("‐", "-"), word
+        assert word in printed("man", "-l", "-P", "cat", page, env={"MANWIDTH": "200", "PATH": "/usr/bin:/bin"}).replace("‐", "-"), word

@@ -1,26 +1,19 @@
 """Result files that are damaged or of another shape are told in words: no number of them is shown, nothing breaks down."""
 
-import pathlib
 import shutil
-import subprocess
 
 import h5py
 import numpy
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, run
+
 USAGE, DECK_ERROR, FILE_ERROR = 2, 3, 6  # exit codes
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3", "--quiet"]
 SEAL = 32  # bytes
 CASES, ANGLES = 4, 18
 EXPORT, SUMMARY, RERUN = ["export", "x.h5"], ["export", "x.h5", "--summary"], ["rerun", "x.h5", "--threads", "2"]
 DAMAGED = "it is damaged, its bytes are not those that were written"
-
-
-def run(camroller, *arguments, folder):
-    """Run the program in a folder."""
-    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          errors="replace", check=False, timeout=120)
 
 
 @pytest.fixture(scope="module")

@@ -1,15 +1,8 @@
 """Decks that share files: the lines of an included file count as its own, in messages, results and repetitions."""
 
-import pathlib
-import subprocess
-
 import h5py
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-
-def run(camroller, *arguments):
-    return subprocess.run([camroller, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, check=False)
+from conftest import ROOT, run
 
 
 def split_deck(folder, change=("", "")):

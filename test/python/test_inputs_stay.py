@@ -1,18 +1,16 @@
 """No result replaces what it was computed from, nor anything that is no regular file."""
 
 import os
-import pathlib
 import shutil
 import socket
 import stat
-import subprocess
 
 import h5py
 import pytest
 
+from conftest import ROOT, run
 from sweeps import EARLIER_RESULT
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 USAGE, FILE_ERROR = 2, 6  # exit codes
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
 WRITERS = ["run", "sweep", "merge", "study", "audit", "ehl"]
@@ -20,12 +18,6 @@ DEVICE_NULL = (1, 3)  # the numbers of the device that swallows everything
 SWEEP = "&sweep kind = 'table' table = 'tables/cases.{0}' /\n"
 SWEPT_TABLES = ("&sweep kind = 'zip' key_1 = 'gas_force.table' values_1 = 'tables/cylinder_pressure.txt', 'tables/other.txt' "
                 "key_2 = 'operating_point.speed_rpm' values_2 = 300, 600 /\n")
-
-
-def run(camroller, *arguments, folder):
-    """Run the program in a folder."""
-    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          check=False, timeout=60)
 
 
 @pytest.fixture

@@ -7,22 +7,16 @@ from __future__ import annotations
 
 import collections
 import os
-import pathlib
 import re
 import shutil
 import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, printed
+
 DECK = ROOT / "decks" / "thesis.nml"
 CAMSHAFT = ROOT / "decks" / "three_cam_head.nml"
-
-def run(*command, **options):
-    """Run a command that must succeed; its output."""
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 @pytest.fixture(scope="module")
@@ -33,10 +27,10 @@ def prefix(cmake_prefix):
 
 def built(prefix, source, program):
     """A C program, built by what pkg-config says of the prefix."""
-    flags = run("pkg-config", "--cflags", "--libs", "camroller",
-                env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}).split()
-    run("gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-g", ROOT / "tools" / source, *flags, "-lm", "-lpthread",
-        f"-Wl,-rpath,{prefix}/lib", "-o", program)
+    flags = printed("pkg-config", "--cflags", "--libs", "camroller",
+                    env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}).split()
+    printed("gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-g", ROOT / "tools" / source, *flags, "-lm", "-lpthread",
+            f"-Wl,-rpath,{prefix}/lib", "-o", program)
     return program
 
 
@@ -53,7 +47,7 @@ def threads(prefix, tmp_path_factory):
 
 
 def test_every_call_of_the_c_interface(host):
-    assert "0 failures" in run(host, DECK, CAMSHAFT, cwd=ROOT)
+    assert "0 failures" in printed(host, DECK, CAMSHAFT)
 
 
 def test_every_call_is_tried_with_null_in_every_place():
@@ -77,44 +71,44 @@ def test_no_memory_is_lost_or_misused(host):
     if shutil.which("valgrind") is None:
         pytest.skip("valgrind is not installed")
     # threads that OpenMP keeps for later are "possibly lost" at the end of a program
-    run("valgrind", "-q", "--leak-check=full", "--errors-for-leak-kinds=definite,indirect", "--error-exitcode=3", host, DECK, CAMSHAFT,
-        cwd=ROOT)
+    printed("valgrind", "-q", "--leak-check=full", "--errors-for-leak-kinds=definite,indirect", "--error-exitcode=3", host, DECK,
+            CAMSHAFT)
 
 
 @pytest.mark.parametrize("deck", ["thesis", "numerical_film"])
 def test_a_saved_follower_continues_in_another_process_with_the_same_bits(host, tmp_path, deck):
     """With films solved beforehand, too: the second process solves them for the same speed and oil."""
     block = tmp_path / "block"
-    first = run(host, ROOT / "decks" / f"{deck}.nml", "--restore", block, cwd=ROOT)
+    first = printed(host, ROOT / "decks" / f"{deck}.nml", "--restore", block)
     assert block.stat().st_size > 0
-    assert run(host, ROOT / "decks" / f"{deck}.nml", "--restore", block, cwd=ROOT) == first
+    assert printed(host, ROOT / "decks" / f"{deck}.nml", "--restore", block) == first
 
 
 def test_decks_and_followers_in_64_threads_give_the_bits_of_one_thread(threads):
     """THREAD_RUNS=100 does it as often for each thread, which takes a minute."""
-    assert "0 of 64" in run(threads, DECK, 64, os.environ.get("THREAD_RUNS", "5"))
+    assert "0 of 64" in printed(threads, DECK, 64, os.environ.get("THREAD_RUNS", "5"))
 
 
 def test_helgrind_finds_no_data_race(threads):
     if shutil.which("valgrind") is None:
         pytest.skip("valgrind is not installed")
-    run("valgrind", "--tool=helgrind", "-q", "--error-exitcode=7", threads, DECK, 3, 1)
+    printed("valgrind", "--tool=helgrind", "-q", "--error-exitcode=7", threads, DECK, 3, 1)
 
 
 def test_the_header_compiles_as_c_plus_plus(prefix, tmp_path):
     source = tmp_path / "use.cpp"
     source.write_text("#include <camroller.h>\nint main() { return camroller_library_version() / 100 != CAMROLLER_VERSION / 100; }\n")
-    run("gcc", "-x", "c++", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{prefix}/include", source)
+    printed("gcc", "-x", "c++", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{prefix}/include", source)
 
 
 def test_the_library_shows_its_own_names_and_needs_no_hdf5(prefix):
     library = prefix / "lib" / "libcamroller.so"
-    shown = [line.split()[-1] for line in run("nm", "-D", "--defined-only", library).splitlines()]
+    shown = [line.split()[-1] for line in printed("nm", "-D", "--defined-only", library).splitlines()]
     assert [name for name in shown if not name.startswith(("camroller_", "__camroller_"))] == []
     declared = set(re.findall(r"\b(camroller_\w+)\(", (ROOT / "include" / "camroller.h").read_text()))
     assert declared == {name for name in shown if name.startswith("camroller_")}
-    assert "hdf5" not in run("ldd", library)
-    assert re.search(r"SONAME.*libcamroller\.so\.\d+\.\d+\]", run("readelf", "-d", library))
+    assert "hdf5" not in printed("ldd", library)
+    assert re.search(r"SONAME.*libcamroller\.so\.\d+\.\d+\]", printed("readelf", "-d", library))
 
 
 def test_no_call_of_c_has_the_name_of_a_module():
@@ -155,11 +149,11 @@ foreach(kind shared static)
   target_link_libraries(${kind} PRIVATE camroller::camroller_${kind})
 endforeach()
 """)
-    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
-    run("cmake", "--build", tmp_path / "build")
+    printed("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+    printed("cmake", "--build", tmp_path / "build")
     for kind in ("shared", "static"):
-        run(tmp_path / "build" / kind, DECK)
-        assert ("libcamroller" in run("ldd", tmp_path / "build" / kind)) == (kind == "shared")
+        printed(tmp_path / "build" / kind, DECK)
+        assert ("libcamroller" in printed("ldd", tmp_path / "build" / kind)) == (kind == "shared")
 
 
 def test_nothing_installed_points_to_the_sources(prefix):
@@ -168,20 +162,20 @@ def test_nothing_installed_points_to_the_sources(prefix):
     assert len(texts) > 8
     assert [path for path in texts if str(ROOT) in path.read_text()] == []
     for library in prefix.rglob("*.so*"):
-        assert str(ROOT) not in run("readelf", "-d", library)
+        assert str(ROOT) not in printed("readelf", "-d", library)
 
 
 def test_with_hdf5_there_are_both_libraries_the_program_and_its_pages(cmake_io_prefix, tmp_path):
     prefix = cmake_io_prefix
     result = tmp_path / "result.h5"
-    run(prefix / "bin" / "camroller", "run", DECK, "--no-sweep", "-o", result, "--quiet")
+    printed(prefix / "bin" / "camroller", "run", DECK, "--no-sweep", "-o", result, "--quiet")
     assert result.read_bytes()[:4] == b"\x89HDF"
     assert (prefix / "share" / "man" / "man1" / "camroller.1").read_text().startswith(".TH")
-    run("bash", "-n", prefix / "share" / "bash-completion" / "completions" / "camroller")
+    printed("bash", "-n", prefix / "share" / "bash-completion" / "completions" / "camroller")
     library = prefix / "lib" / "libcamroller_io.so"
-    shown = [line.split()[-1] for line in run("nm", "-D", "--defined-only", library).splitlines()]
+    shown = [line.split()[-1] for line in printed("nm", "-D", "--defined-only", library).splitlines()]
     assert shown and all(name.startswith(("camroller_", "__camroller_")) for name in shown)
-    assert "hdf5" in run("ldd", library) and "hdf5" not in run("ldd", prefix / "lib" / "libcamroller.so")
+    assert "hdf5" in printed("ldd", library) and "hdf5" not in printed("ldd", prefix / "lib" / "libcamroller.so")
     # a program of Fortran for both, from another place
     (tmp_path / "CMakeLists.txt").write_text("""cmake_minimum_required(VERSION 3.16)
 project(host LANGUAGES C Fortran)
@@ -192,18 +186,18 @@ foreach(kind shared static)
 endforeach()
 """)
     shutil.copy(ROOT / "example" / "library" / "two_cases.f90", tmp_path)
-    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
-    run("cmake", "--build", tmp_path / "build")
-    assert run(tmp_path / "build" / "shared", cwd=ROOT) == run(tmp_path / "build" / "static", cwd=ROOT) != ""
-    assert run(tmp_path / "build" / "shared", cwd=ROOT) == run_by_pkg_config(prefix, tmp_path)
+    printed("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+    printed("cmake", "--build", tmp_path / "build")
+    assert printed(tmp_path / "build" / "shared") == printed(tmp_path / "build" / "static") != ""
+    assert printed(tmp_path / "build" / "shared") == run_by_pkg_config(prefix, tmp_path)
 
 
 def run_by_pkg_config(prefix, place):
     """What the same program prints when it is built by what pkg-config says of both libraries."""
-    flags = run("pkg-config", "--cflags", "--libs", "camroller_io",
-                env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}).split()
-    run("gfortran", place / "two_cases.f90", *flags, f"-Wl,-rpath,{prefix}/lib", "-o", place / "by_pkg_config", cwd=place)
-    return run(place / "by_pkg_config", cwd=ROOT)
+    flags = printed("pkg-config", "--cflags", "--libs", "camroller_io",
+                    env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}).split()
+    printed("gfortran", place / "two_cases.f90", *flags, f"-Wl,-rpath,{prefix}/lib", "-o", place / "by_pkg_config", folder=place)
+    return printed(place / "by_pkg_config")
 
 
 def test_a_sweep_leaves_the_printing_of_errors_by_hdf5_as_it_was(cmake_io_prefix, tmp_path):
@@ -234,11 +228,11 @@ def test_a_sweep_leaves_the_printing_of_errors_by_hdf5_as_it_was(cmake_io_prefix
    if (open_none("there is none"//achar(0), 0_c_int, 0_8) >= 0) stop 2
 end program host
 """)
-    flags = run("pkg-config", "--cflags", "--libs", "camroller_io",
-                env={**os.environ, "PKG_CONFIG_PATH": str(cmake_io_prefix / "lib" / "pkgconfig")}).split()
-    needed = run("ldd", cmake_io_prefix / "lib" / "libcamroller_io.so")
+    flags = printed("pkg-config", "--cflags", "--libs", "camroller_io",
+                    env={**os.environ, "PKG_CONFIG_PATH": str(cmake_io_prefix / "lib" / "pkgconfig")}).split()
+    needed = printed("ldd", cmake_io_prefix / "lib" / "libcamroller_io.so")
     hdf5 = re.findall(r" => (\S*/libhdf5(?:_serial)?\.so\S*)", needed)[0]
-    run("gfortran", "host.f90", *flags, hdf5, f"-Wl,-rpath,{cmake_io_prefix}/lib", "-o", "host", cwd=tmp_path)
+    printed("gfortran", "host.f90", *flags, hdf5, f"-Wl,-rpath,{cmake_io_prefix}/lib", "-o", "host", folder=tmp_path)
     done = subprocess.run([str(tmp_path / "host"), str(DECK)], capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "HDF5-DIAG" in done.stderr

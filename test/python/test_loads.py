@@ -1,25 +1,17 @@
 """Loads from outside: lost contact is said and can be refused, every lobe is in the file, and no number is written that is none."""
 
-import pathlib
-import subprocess
-
 import h5py
 import numpy
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, run
+
 DECKS = ROOT / "decks"
 DOMAIN = 4
 COARSE = ["--set", "output.angle_step_deg=5"]
 FAST = ["--set", "sweep.values_1=2000,3600,5000", "--set", "film.law=moes"]
 SHARP = ["--set", "film.law=moes", "--set", "second_lift.opening_half_angle_deg=48", "--set", "second_lift.closing_half_angle_deg=48",
          "--set", "second_lift.max_lift_mm=10"]
-
-
-def run(camroller, *arguments, folder):
-    """Run the program without a terminal."""
-    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
-                          stdin=subprocess.DEVNULL, timeout=300)
 
 
 def remarks_of(path):

@@ -1,27 +1,19 @@
 """What a person looks at before and after a run: the drawing, facts of a case, the table, one point of a sweep, exports."""
 
 import json
-import pathlib
 import re
-import subprocess
 import xml.etree.ElementTree
 
 import h5py
 import numpy as np
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-
-def run(camroller, *arguments, given=None, code=0):
-    result = subprocess.run([camroller, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, check=False, input=given)
-    assert result.returncode == code, result.stderr
-    return result
+from conftest import ROOT, done
 
 
 def test_drawing_is_to_scale(camroller, tmp_path):
     path = tmp_path / "mechanism.svg"
-    run(camroller, "check", "decks/thesis.nml", "--draw", path)
+    done(camroller, "check", "decks/thesis.nml", "--draw", path)
     drawing = xml.etree.ElementTree.parse(path).getroot()
     space = "{http://www.w3.org/2000/svg}"
     circles = [{key: float(circle.get(key)) for key in ("cx", "cy", "r")} for circle in drawing.iter(space + "circle")]
@@ -55,7 +47,7 @@ def curves_of(path):
 
 def test_drawing_of_a_noisy_lift_has_its_rows_and_the_smoothed_curve(camroller, tmp_path):
     path = tmp_path / "lift.svg"
-    run(camroller, "check", "decks/hard/noisy_table.nml", "--draw-lift", path)
+    done(camroller, "check", "decks/hard/noisy_table.nml", "--draw-lift", path)
     grey, blue, orange = "#aaaaaa", "#1f4e8c", "#e07b00"
     lift, _, acceleration, jerk = curves_of(path)
     assert set(lift) == set(jerk) == {grey, blue, orange}
@@ -65,12 +57,12 @@ def test_drawing_of_a_noisy_lift_has_its_rows_and_the_smoothed_curve(camroller, 
     # noise makes the curve through all rows jerk to and fro, the smoothed one hardly
     assert np.abs(np.diff(jerk[blue][:, 1])).sum() > 20 * np.abs(np.diff(jerk[orange][:, 1])).sum()
     assert np.abs(np.diff(acceleration[grey][:, 1])).sum() > 2 * np.abs(np.diff(acceleration[orange][:, 1])).sum()
-    run(camroller, "check", "decks/thesis.nml", "--draw-lift", path)
+    done(camroller, "check", "decks/thesis.nml", "--draw-lift", path)
     assert [set(panel) for panel in curves_of(path)] == 4 * [{blue}]
 
 
 def test_check_prints_facts_of_the_deck(camroller):
-    text = run(camroller, "check", "decks/four_cylinder.nml").stdout
+    text = done(camroller, "check", "decks/four_cylinder.nml").stdout
     for words in (r"oil at 90 degC: 11\.\d mPa s, .* \(estimated by So and Klaus", r"composite roughness: 0\.17 um",
                   r"smallest cam radius [\d.]+ mm at [\d.]+ deg", r"largest pressure angle [\d.]+ deg", r"ramps below 0\.1 mm",
                   r"second lobe: contact load up to \d+ N, pressure up to 0?\.?\d+", r"contact is lost above \d+ rev/min"):
@@ -81,32 +73,32 @@ def test_check_prints_facts_of_the_deck(camroller):
 def test_check_tells_the_margins_without_friction_from_the_load_with_it(camroller):
     """A stem seal in cold oil lifts the follower off its cam, which the margins do not know."""
     deck = (ROOT / "decks/thesis.nml").read_text() + "&stem_seal lip_force_N = 5 viscous_drag_N_s_m = 3 reference_viscosity_Pa_s = 0.01 /\n"
-    text = run(camroller, "check", "-", "--no-sweep", "--set", "operating_point.oil_temperature_degC=-20",
-               "--set", "operating_point.speed_rpm=300", given=deck).stdout
+    text = done(camroller, "check", "-", "--no-sweep", "--set", "operating_point.oil_temperature_degC=-20",
+                "--set", "operating_point.speed_rpm=300", input=deck).stdout
     told = re.search(r"smallest load of the event (\d+) N, .*, all without friction; smallest load of the event with friction 0 N", text)
     assert told and int(told[1]) > 300, text
 
 
 def test_check_foretells_the_size_of_a_sweep(camroller, tmp_path):
     speeds = "sweep.values_1=" + ",".join(str(300 + i) for i in range(400))
-    text = run(camroller, "check", "decks/thesis.nml", "--set", speeds, "--set", "sweep.values_2=60,95").stdout
+    text = done(camroller, "check", "decks/thesis.nml", "--set", speeds, "--set", "sweep.values_2=60,95").stdout
     foretold = float(re.search(r"on disk about ([\d.]+) MB in parts while it runs, and as much again", text)[1])
-    run(camroller, "sweep", "decks/thesis.nml", "--set", speeds, "--set", "sweep.values_2=60,95", "-o", tmp_path / "s.h5", "-q")
+    done(camroller, "sweep", "decks/thesis.nml", "--set", speeds, "--set", "sweep.values_2=60,95", "-o", tmp_path / "s.h5", "-q")
     # two digits, nine of 800 cases, and 30 kB of deck and names
     assert (tmp_path / "s.h5").stat().st_size == pytest.approx(1e6 * foretold, rel=0.12)
 
 
 def test_check_says_where_a_bearing_law_is_outside_its_range(camroller):
-    text = run(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
+    text = done(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
     assert "width over diameter 0.87, law 'long_full_sommerfeld', which is for bearings wider than 2 diameters; 'finite'" in text
-    text = run(camroller, "check", "decks/four_cylinder.nml", "--no-sweep").stdout
+    text = done(camroller, "check", "decks/four_cylinder.nml", "--no-sweep").stdout
     assert "width over diameter 0.708, law 'finite'\n" in text
 
 
 def test_smallest_cam_radius_is_that_of_the_series(camroller, tmp_path):
-    text = run(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
+    text = done(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
     told = float(re.search(r"smallest cam radius ([\d.]+) mm", text)[1])
-    run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--no-sweep", "--quiet", "--set", "output.angle_step_deg=0.25")
+    done(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--no-sweep", "--quiet", "--set", "output.angle_step_deg=0.25")
     with h5py.File(tmp_path / "a.h5") as file:
         curvature = 1 / file["series/equivalent_radius"][0] - 1 / 0.0085
     # three digits are printed
@@ -114,19 +106,19 @@ def test_smallest_cam_radius_is_that_of_the_series(camroller, tmp_path):
 
 
 def test_run_ends_with_a_table_of_results(camroller, tmp_path):
-    text = run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5").stdout
+    text = done(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5").stdout
     lines = text.splitlines()
     assert lines[0].split()[:2] == ["speed_rpm", "oil_temperature_degC"] and "peak pressure" in lines[0]
     with h5py.File(tmp_path / "a.h5") as file:
         torque = 1e3 * file["summary/mean_torque_friction"][()]
     for row, value in zip(lines[2:11], torque, strict=True):
         assert float(row.split()[6]) == pytest.approx(value, rel=5e-3)
-    assert run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--quiet").stdout == ""
+    assert done(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--quiet").stdout == ""
 
 
 def test_the_table_has_the_worst_lobe_shape(camroller, tmp_path):
     deck = ["decks/four_cylinder.nml", "--no-sweep", "--set", "second_lift.max_lift_mm=4", "--set", "second_lift.opening_half_angle_deg=45"]
-    text = run(camroller, "run", *deck, "-o", tmp_path / "a.h5").stdout
+    text = done(camroller, "run", *deck, "-o", tmp_path / "a.h5").stdout
     note = "mean slip, peak pressure, smallest film, film ratio: the worst of all lobe shapes"
     assert note in text
     with h5py.File(tmp_path / "a.h5") as file:
@@ -137,72 +129,72 @@ def test_the_table_has_the_worst_lobe_shape(camroller, tmp_path):
     assert shown == pytest.approx([1e2 * of["mean_lobe_2_slip_ratio"], 1e-9 * of["max_hertz_pressure"],
                                    1e6 * of["min_lobe_2_film_thickness_min"], of["min_lobe_2_film_ratio"]], rel=5e-3)
     # at this speed the second shape alone loses contact: there is no film
-    text = run(camroller, "run", *deck, "--set", "operating_point.speed_rpm=6000", "-o", tmp_path / "b.h5").stdout
+    text = done(camroller, "run", *deck, "--set", "operating_point.speed_rpm=6000", "-o", tmp_path / "b.h5").stdout
     assert text.splitlines()[2].split()[-2:] == ["-", "-"]
-    assert note not in run(camroller, "run", "decks/thesis.nml", "--no-sweep", "-o", tmp_path / "c.h5").stdout
+    assert note not in done(camroller, "run", "decks/thesis.nml", "--no-sweep", "-o", tmp_path / "c.h5").stdout
 
 
 def test_point_selects_one_case_of_a_sweep(camroller, tmp_path):
-    run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "all.h5", "--quiet")
-    run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "one.h5", "--quiet", "--point", "speed_rpm=600",
-        "--point", "operating_point.oil_temperature_degC=60")
+    done(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "all.h5", "--quiet")
+    done(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "one.h5", "--quiet", "--point", "speed_rpm=600",
+         "--point", "operating_point.oil_temperature_degC=60")
     with h5py.File(tmp_path / "all.h5") as many, h5py.File(tmp_path / "one.h5") as one:
         assert one["case"].shape == (1,)
         assert one["summary/mean_torque_friction"][0] == many["summary/mean_torque_friction"][4]
     # what is stored is the one case
-    assert "1 case is the same to the last bit" in run(camroller, "rerun", tmp_path / "one.h5").stdout
+    assert "1 case is the same to the last bit" in done(camroller, "rerun", tmp_path / "one.h5").stdout
 
 
 def test_deck_from_the_standard_input(camroller, tmp_path):
     deck = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
-    run(camroller, "run", "-", "-o", tmp_path / "a.h5", "--quiet", given=deck)
-    run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "b.h5", "--quiet")
+    done(camroller, "run", "-", "-o", tmp_path / "a.h5", "--quiet", input=deck)
+    done(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "b.h5", "--quiet")
     with h5py.File(tmp_path / "a.h5") as one, h5py.File(tmp_path / "b.h5") as other:
         assert (one["summary/mean_torque_drive"][()] == other["summary/mean_torque_drive"][()]).all()
-    result = run(camroller, "check", "-", given=deck.replace("radius_mm = 8.5", "radius_mm = -1"), code=3)
+    result = done(camroller, "check", "-", input=deck.replace("radius_mm = 8.5", "radius_mm = -1"), code=3)
     assert "standard input:" in result.stderr
 
 
 def test_export_selects_columns_and_formats(camroller, tmp_path):
     path = tmp_path / "a.h5"
-    run(camroller, "run", "decks/thesis.nml", "-o", path, "--quiet")
-    text = run(camroller, "export", path, "--summary", "--columns", "mean_torque_friction,min_film_ratio", "--format", "plain").stdout
+    done(camroller, "run", "decks/thesis.nml", "-o", path, "--quiet")
+    text = done(camroller, "export", path, "--summary", "--columns", "mean_torque_friction,min_film_ratio", "--format", "plain").stdout
     lines = text.splitlines()
     assert lines[0].split(",")[-2:] == ["mean_torque_friction [N m]", "min_film_ratio [1]"] and len(lines) == 10
-    table = json.loads(run(camroller, "export", path, "--summary", "--format", "json").stdout)
+    table = json.loads(done(camroller, "export", path, "--summary", "--format", "json").stdout)
     with h5py.File(path) as file:
         column = next(column for column in table["columns"] if column["name"] == "mean_torque_friction")
         assert column["values"] == list(file["summary/mean_torque_friction"][()]) and column["unit"] == "N m"
-    series = run(camroller, "export", path, "--case", 2, "--columns", "contact_load").stdout.splitlines()
+    series = done(camroller, "export", path, "--case", 2, "--columns", "contact_load").stdout.splitlines()
     assert series[0] == "cam_angle,contact_load" and len(series) == 722
-    result = run(camroller, "export", path, "--columns", "contact_lod", code=2)
+    result = done(camroller, "export", path, "--columns", "contact_lod", code=2)
     assert "did you mean 'contact_load'?" in result.stderr
 
 
 def test_export_writes_infinite_speeds_as_text_and_missing_numbers_as_null(camroller, tmp_path):
     path = tmp_path / "a.h5"
-    run(camroller, "run", "decks/thesis.nml", "-o", path, "--quiet", "--point", "speed_rpm=300")
+    done(camroller, "run", "decks/thesis.nml", "-o", path, "--quiet", "--point", "speed_rpm=300")
     path.write_bytes(path.read_bytes()[:-32])  # without the seal of the numbers as they were
     with h5py.File(path, "r+") as file:
         for name, value in (("contact_loss_speed", np.inf), ("spring_margin", -np.inf), ("margin_event", np.nan)):
             file[f"summary/{name}"][0] = value
-    text = run(camroller, "export", path, "--summary", "--format", "json").stdout
+    text = done(camroller, "export", path, "--summary", "--format", "json").stdout
     table = json.loads(text, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
     values = {column["name"]: column["values"][0] for column in table["columns"]}
     assert [values[name] for name in ("contact_loss_speed", "spring_margin", "margin_event")] == ["Infinity", "-Infinity", None]
 
 
 def test_study_of_laws_refuses_an_output_file(camroller, tmp_path):
-    words = run(camroller, "study", "decks/thesis.nml", "--laws", "-o", tmp_path / "x.h5", code=2).stderr
+    words = done(camroller, "study", "decks/thesis.nml", "--laws", "-o", tmp_path / "x.h5", code=2).stderr
     assert "'study' does not take '--laws' together with '--output'" in words and not (tmp_path / "x.h5").exists()
 
 
 def test_study_of_laws_shows_the_range_that_runs_give(camroller, tmp_path):
-    text = run(camroller, "study", "decks/thesis.nml", "--laws", "--set", "sweep.values_1=600", "--set", "sweep.values_2=60").stdout
+    text = done(camroller, "study", "decks/thesis.nml", "--laws", "--set", "sweep.values_1=600", "--set", "sweep.values_2=60").stdout
     slips = {}
     for law in ("dowson_higginson", "pan_hamrock", "masjedi_khonsari", "moes"):
-        run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--quiet", "--point", "speed_rpm=600",
-            "--point", "oil_temperature_degC=60", "--set", f"film.law={law}")
+        done(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--quiet", "--point", "speed_rpm=600",
+             "--point", "oil_temperature_degC=60", "--set", f"film.law={law}")
         with h5py.File(tmp_path / "a.h5") as file:
             slips[law] = 100 * file["summary/mean_slip_ratio"][0]
         row = next(line.replace(">", " ").split() for line in text.splitlines() if line.replace(">", " ").split()[:1] == [law])
@@ -217,8 +209,8 @@ def test_study_of_laws_shows_the_range_that_runs_give(camroller, tmp_path):
 def test_study_of_laws_shows_the_worst_of_several_lobe_shapes(camroller, tmp_path):
     point = ["decks/four_cylinder.nml", "--set", "sweep.values_1=1000", "--set", "sweep.values_2=90", "--set",
              "second_lift.max_lift_mm=10.5"]
-    text = run(camroller, "study", *point, "--laws").stdout
-    run(camroller, "run", *point, "-o", tmp_path / "a.h5", "--quiet")
+    text = done(camroller, "study", *point, "--laws").stdout
+    done(camroller, "run", *point, "-o", tmp_path / "a.h5", "--quiet")
     with h5py.File(tmp_path / "a.h5") as file:
         scalars = {name: [file[f"summary/{first}{lobe}{last}"][0] for lobe in ("", "lobe_2_")] for name, first, last in (
             ("slip", "mean_", "slip_ratio"), ("film", "min_", "film_thickness_min"), ("ratio", "min_", "film_ratio"))}
@@ -228,10 +220,10 @@ def test_study_of_laws_shows_the_worst_of_several_lobe_shapes(camroller, tmp_pat
     assert float(row[7]) == pytest.approx(min(scalars["ratio"]), rel=5e-3)
     assert scalars["film"][0] > 1.01 * scalars["film"][1], "the film of the second shape can be told from the first's by three digits"
     assert text.splitlines()[-1] == "  outside its range, mean slip, smallest film, film ratio: the worst of all lobe shapes"
-    assert "worst" not in run(camroller, "study", "decks/thesis.nml", "--laws", "--set", "sweep.values_1=600", "--set",
-                              "sweep.values_2=60").stdout
+    assert "worst" not in done(camroller, "study", "decks/thesis.nml", "--laws", "--set", "sweep.values_1=600", "--set",
+                               "sweep.values_2=60").stdout
 
 
 def test_selftest_passes_and_names_the_build(camroller):
-    text = run(camroller, "selftest").stdout
+    text = done(camroller, "selftest").stdout
     assert "all 6 numbers agree" in text and "commit" in text and "GCC" in text

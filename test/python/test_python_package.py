@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import pathlib
-import subprocess
 import sys
 import venv
 
@@ -13,9 +11,8 @@ import h5py
 import numpy as np
 import pytest
 
-from conftest import CMAKE_BUILD, CMAKE_FLAGS, alone_in_cmake
+from conftest import CMAKE_BUILD, CMAKE_FLAGS, ROOT, alone_in_cmake, printed
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks" / "thesis.nml"
 
 CHECK = """
@@ -103,25 +100,18 @@ print(json.dumps(answers))
 """
 
 
-def run(*command, **options):
-    """Run a command that must succeed; its output."""
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
 @pytest.fixture(scope="module")
 def installed(cmake_prefix, tmp_path_factory):
     """An environment with the wheel and nothing else: its Python, and the folder of its packages."""
     place = tmp_path_factory.mktemp("wheel")
     with alone_in_cmake():
-        run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "-w", place,
-            "-C", f"build-dir={CMAKE_BUILD}", "-C", f"cmake.define.{CMAKE_FLAGS}", ROOT / "python")
+        printed(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "-w", place,
+                "-C", f"build-dir={CMAKE_BUILD}", "-C", f"cmake.define.{CMAKE_FLAGS}", ROOT / "python")
     (wheel,) = place.glob("*.whl")
     assert wheel.name.startswith("camroller-") and "-py3-none-linux_" in wheel.name
     venv.create(place / "empty", with_pip=True)
     python = place / "empty" / "bin" / "python"
-    run(python, "-m", "pip", "install", "--no-index", "--no-deps", wheel)
+    printed(python, "-m", "pip", "install", "--no-index", "--no-deps", wheel)
     (packages,) = (place / "empty").glob("lib/python*/site-packages")
     return python, packages
 
@@ -129,14 +119,14 @@ def installed(cmake_prefix, tmp_path_factory):
 @pytest.fixture(scope="module")
 def answers(installed):
     clean = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "LD_"))}
-    return json.loads(run(installed[0], "-c", CHECK, DECK, ROOT / "decks" / "three_cam_head.nml", ROOT / "decks" / "sliding_joints.nml",
-                          env=clean))
+    return json.loads(printed(installed[0], "-c", CHECK, DECK, ROOT / "decks" / "three_cam_head.nml", ROOT / "decks" / "sliding_joints.nml",
+                              env=clean))
 
 
 def test_results_have_the_bits_of_the_program(answers, cmake_io_prefix, tmp_path):
     # bits are the same within one set of compiler options, here those with which tests build by CMake
     camroller = cmake_io_prefix / "bin/camroller"
-    run(camroller, "run", DECK, "-o", tmp_path / "deck.h5", "--quiet")
+    printed(camroller, "run", DECK, "-o", tmp_path / "deck.h5", "--quiet")
     with h5py.File(tmp_path / "deck.h5") as file:
         friction = np.asarray(file["summary/mean_torque_friction"])
         slip = np.asarray(file["series/sliding_speed"])
@@ -144,7 +134,7 @@ def test_results_have_the_bits_of_the_program(answers, cmake_io_prefix, tmp_path
     assert [float.fromhex(word) for word in answers["friction"]] == friction.ravel().tolist()
     assert [[float.fromhex(word) for word in row] for row in answers["slip"]] == slip.reshape(friction.size, -1).tolist()
     assert answers["varied"][5] == {"operating_point.speed_rpm": 600.0, "operating_point.oil_temperature_degC": 95.0}
-    run(camroller, "run", DECK, "-o", tmp_path / "one.h5", "--quiet", "--point", "speed_rpm=600", "--set", "film.law='moes'")
+    printed(camroller, "run", DECK, "-o", tmp_path / "one.h5", "--quiet", "--point", "speed_rpm=600", "--set", "film.law='moes'")
     with h5py.File(tmp_path / "one.h5") as file:
         assert float.fromhex(answers["set"]) == np.asarray(file["summary/mean_torque_friction"]).item()
     assert answers["number"] == 600.0
@@ -198,13 +188,13 @@ assert case.numbers["operating_point.speed_rpm"] != 900
 np.linalg.inv(np.eye(300) + 1.0)
 print("fine")
 """
-    done = run(sys.executable, "-c", words, DECK, env={**os.environ, "PYTHONPATH": str(installed[1])})
+    done = printed(sys.executable, "-c", words, DECK, env={**os.environ, "PYTHONPATH": str(installed[1])})
     assert done.strip() == "fine"
 
 
 def test_the_wheel_contains_all_libraries_that_it_needs(installed):
     folder = installed[1] / "camroller" / "lib"
-    needed = run("ldd", next(folder.glob("libcamroller_bundle.so.*")))
+    needed = printed("ldd", next(folder.glob("libcamroller_bundle.so.*")))
     for name in ("libgfortran.so.5", "libquadmath.so.0", "libopenblas.so.0"):
         assert f"{name} => {folder}/{name}" in needed, needed
 
@@ -217,12 +207,13 @@ header = set(re.findall(r"\\bcamroller_(\\w+)\\(", open(sys.argv[1]).read()))
 declared = set(_library.CALLS) | set(_library.PLAIN)
 assert declared <= header, declared - header
 """
-    run(installed[0], "-c", words, ROOT / "include" / "camroller.h")
+    printed(installed[0], "-c", words, ROOT / "include" / "camroller.h")
 
 
 def in_python(installed, words, *arguments, **variables):
     """What a script prints in this environment, where numpy is."""
-    return run(sys.executable, "-c", words, DECK, *arguments, env={**os.environ, "PYTHONPATH": str(installed[1]), **variables}).split()
+    return printed(sys.executable, "-c", words, DECK, *arguments,
+                   env={**os.environ, "PYTHONPATH": str(installed[1]), **variables}).split()
 
 
 def test_copies_by_the_module_copy_are_copies_and_nothing_is_pickled(installed):

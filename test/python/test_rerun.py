@@ -6,7 +6,8 @@ import shutil
 import h5py
 import pytest
 
-from sweeps import ROOT, done, run, write_deck
+from conftest import ROOT, done, run
+from sweeps import write_deck
 
 USAGE, FILE, DIFFERENCE = 2, 6, 7
 

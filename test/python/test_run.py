@@ -3,7 +3,6 @@
 import csv
 import io
 import os
-import pathlib
 import pty
 import subprocess
 import time
@@ -13,16 +12,11 @@ import numpy
 import pytest
 import xarray
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from conftest import ROOT, done, run
+
 THESIS = ROOT / "decks/thesis.nml"
 USAGE, DECK, DOMAIN, CONVERGENCE, FILE, DIFFERENCE = 2, 3, 4, 5, 6, 7
 COARSE = ["--set", "output.angle_step_deg=5"]
-
-
-def run(camroller, *arguments, folder):
-    """Run the program without a terminal."""
-    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
-                          stdin=subprocess.DEVNULL, timeout=300)
 
 
 def one_case(path, *changes):
@@ -190,8 +184,7 @@ def test_contacts_are_solved_over_the_cycle(camroller, tmp_path):
     """Pressure and film across the contact; the pressure carries the load at every angle."""
     path = tmp_path / "ehl.h5"
     arguments = ["ehl", "decks/numerical_film.nml", "-o", path, "--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
-    result = subprocess.run([camroller, *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, check=False)
-    assert result.returncode == 0, result.stderr
+    done(camroller, *arguments)
     with h5py.File(path) as file:
         group = file["ehl"]
         pressure, x, width = group["pressure"][0], group["x"][0], group["half_width"][0]
@@ -273,9 +266,9 @@ def test_every_lobe_shape_is_solved_and_opens_in_xarray(camroller, tmp_path):
 def test_threads_of_the_linear_algebra_change_no_bit(camroller, tmp_path):
     """With their number the library rounds otherwise, so that the program takes one."""
     for threads in (1, 2):
-        subprocess.run([camroller, "run", "decks/numerical_film.nml", "-o", tmp_path / f"{threads}.h5", "--quiet", *SMALL, "--set",
-                        "output.angle_step_deg=40", "--set", "ehl.accuracy=0.1", "--set", "ehl.profiles=.true."], cwd=ROOT,
-                       check=True, stderr=subprocess.DEVNULL, env=os.environ | {"OPENBLAS_NUM_THREADS": str(threads)})
+        done(camroller, "run", "decks/numerical_film.nml", "-o", tmp_path / f"{threads}.h5", "--quiet", *SMALL, "--set",
+             "output.angle_step_deg=40", "--set", "ehl.accuracy=0.1", "--set", "ehl.profiles=.true.",
+             env=os.environ | {"OPENBLAS_NUM_THREADS": str(threads)})
     with h5py.File(tmp_path / "1.h5") as one, h5py.File(tmp_path / "2.h5") as two:
         for name in ("ehl/pressure", "ehl/film", "series/sliding_speed"):
             assert one[name][()].tobytes() == two[name][()].tobytes(), name
@@ -285,13 +278,10 @@ def test_a_run_writes_profiles_where_the_deck_asks(camroller, tmp_path):
     """Pressure and film of a run, over its own angles, with its load and slip; a case beyond solutions keeps its result."""
     path = tmp_path / "run.h5"
     arguments = ["run", "decks/numerical_film.nml", "-o", path, *SMALL, "--set", "output.angle_step_deg=2"]
-    result = subprocess.run([camroller, *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, check=False)
-    assert result.returncode == 0, result.stderr
+    done(camroller, *arguments)
     with h5py.File(path) as file:
         assert "ehl" not in file
-    result = subprocess.run([camroller, *map(str, arguments), "--set", "ehl.profiles=.true."], cwd=ROOT, capture_output=True,
-                            text=True, check=False)
-    assert result.returncode == 0, result.stderr
+    done(camroller, *arguments, "--set", "ehl.profiles=.true.")
     with h5py.File(path) as file:
         assert file["ehl/pressure"].shape[:2] == file["series/contact_load"].shape == (1, 180)
         for mine, run in (("load", "contact_load"), ("sliding_speed", "sliding_speed")):
@@ -303,5 +293,5 @@ def test_a_run_writes_profiles_where_the_deck_asks(camroller, tmp_path):
 def test_friction_that_nearly_lifts_the_roller_off_ends_with_words(camroller, tmp_path):
     """The last step to the balance took more than all of the load there, and its root was no number."""
     deck = ROOT / "test/data/lifted_roller/deck.nml"
-    result = subprocess.run([camroller, "run", str(deck), "-o", str(tmp_path / "a.h5")], capture_output=True, text=True, check=False)
+    result = run(camroller, "run", deck, "-o", tmp_path / "a.h5")
     assert result.returncode == 4 and "contact is lost for 0.57" in result.stderr

@@ -4,7 +4,7 @@ import h5py
 import numpy
 import pytest
 
-from sweeps import ROOT, done, run
+from conftest import ROOT, done, run
 
 DECK = ROOT / "decks/tribofilm.nml"
 COARSE = ["--set", "output.angle_step_deg=10", "--set", "running_in.places=72", "--set", "sweep.values_1=300,900"]

@@ -11,7 +11,8 @@ import h5py
 import numpy
 import pytest
 
-from sweeps import GRID, ROOT, done, run, same, write_deck
+from conftest import ROOT, done, run
+from sweeps import GRID, same, write_deck
 
 USAGE, DECK, DOMAIN, CONVERGENCE, FILE, UNFINISHED = 2, 3, 4, 5, 6, 8
 

@@ -8,7 +8,8 @@ import time
 
 import pytest
 
-from sweeps import GRID, done, run, same, write_deck
+from conftest import done, run
+from sweeps import GRID, same, write_deck
 
 KILLS = 50
 SEED = 20

@@ -9,7 +9,8 @@ import time
 
 import pytest
 
-from sweeps import GRID, ROOT, content, done, run, write_deck
+from conftest import ROOT, done, run
+from sweeps import GRID, same, write_deck
 
 PROGRAM = ROOT / "build/mpi/bin/camroller-mpi"
 SERIAL = ROOT / "build/release/bin/camroller"
@@ -22,15 +23,6 @@ ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_RO
 def by(ranks):
     """The program in several processes."""
     return ["mpirun", "--oversubscribe", "-n", str(ranks), str(PROGRAM)]
-
-
-def same(one, other):
-    """Do two files hold the same?"""
-    first, second = content(one), content(other)
-    assert list(first) == list(second)
-    for name, thing in first.items():
-        assert thing == second[name], name
-    return True
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,8 @@ import subprocess
 import h5py
 import pytest
 
-from sweeps import GRID, done, run, same, write_deck
+from conftest import done, run
+from sweeps import GRID, same, write_deck
 
 FILE, UNFINISHED = 6, 8
 WORD = 8

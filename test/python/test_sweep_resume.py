@@ -9,7 +9,8 @@ import time
 import h5py
 import pytest
 
-from sweeps import ROOT, done, run, same, write_deck
+from conftest import ROOT, done, run
+from sweeps import same, write_deck
 
 DECK, DOMAIN, FILE, UNFINISHED = 3, 4, 6, 8
 CASES = 24
