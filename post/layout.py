@@ -280,8 +280,7 @@ def chosen_cases(result, selections):
             if key is None:
                 swept = ", ".join(result.sweep) or "none"
                 raise ResultError(f"--cases: '{name.strip()}' is not one key of the deck in {result.path} (swept keys: {swept})")
-            texts = [text.strip() for text in wanted.split(",")]
-            cases = [case for case in cases if any(_same(result.value_of(key, case), text) for text in texts)]
+            cases = [case for case in cases if is_one_of(result.value_of(key, case), wanted)]
         else:
             indices = _indices(selection, result)
             cases = [case for case in cases if case in indices]
@@ -406,6 +405,11 @@ def _unit(key, results):
     unit = _file_unit(key, results)
     last = key.rpartition("_")[2]
     return "" if unit in ("1", "-") else unit_words(unit or (last if last in WORDS else ""))
+
+
+def is_one_of(value, wanted):
+    """Is the value among `300,600`, or within a range as `300:600`?"""
+    return any(_same(value, text.strip()) for text in wanted.split(","))
 
 
 def _same(value, text):

@@ -32,7 +32,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: 
 import numpy as np  # noqa: E402
 
 from command import DPI, run, save_figure  # noqa: E402
-from layout import SPEED, TAKEN, groups_over, key_meant, thin_out  # noqa: E402
+from layout import SPEED, TAKEN, groups_over, is_one_of, key_meant, thin_out  # noqa: E402
 from read import ResultError, fills_grid, read_result  # noqa: E402
 from units import distinct_texts, fitting_unit, key_words, number, unit_words, with_unit  # noqa: E402
 
@@ -44,7 +44,7 @@ WIDE = 100.0  # largest over smallest value of a quantity from which on its axis
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
 MOST_WORDS = 24  # values of a key that the axis of a map can name
 ROUNDING = 1e-9  # part of a quantity within which its values are the same
-CONDITION = re.compile(r"^\s*([\w.]+)\s*(<=|>=|<|>)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*$")
+CONDITION = re.compile(r"^\s*([\w.]+)\s*(?:(<=|>=|<|>)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)|=\s*([^=<>]+?))\s*$")
 RELATIONS = {"<": np.less, ">": np.greater, "<=": np.less_equal, ">=": np.greater_equal}
 PLAIN = FuncFormatter(lambda value, _: f"{value:g}")  # numbers of logarithmic axes
 SPREAD = 0.18  # of points of a scatter about the word they belong to
@@ -68,7 +68,7 @@ class Sweep:
             self.remarks.append(f"{take} over {names}, {result.cases} cases make {len(groups)}")
         failed = np.zeros(result.cases)
         failed[[case for case, _ in result.failed_cases()]] = 1
-        self.failed = self._taken(failed, np.max)
+        self.failed = np.array([failed[group].max() for group in groups])
         for key, quantity in result.sweep.items():
             if key not in gone:
                 values = self._numbers(key, quantity.values)[[group[0] for group in groups]]
@@ -77,7 +77,7 @@ class Sweep:
                 if _is_logarithmic(result, key) and (values > 0).all():
                     self.logarithmic.add(key)
         if not self.keys:
-            raise ResultError(f"nothing varies in {path}; plot.py draws its curves, table.py prints its means")
+            raise ResultError(f"nothing{' else' * bool(gone)} varies in {path}; plot.py draws its curves, table.py prints its means")
         kept = self._kept(result, conditions)
         for name in quantities:
             self._add(result, name, kept)
@@ -87,12 +87,11 @@ class Sweep:
     def _add(self, result, name, kept):
         """A scalar of the summary, without number for the cases that are not kept."""
         quantity = result.scalar(name)
-        values, unit, label = self._taken(self._numbers(name, quantity.values)), quantity.units, key_words(name, quantity.units)
+        values = self._numbers(name, self._taken(name, quantity.values))
+        unit, label = quantity.units, key_words(name, quantity.units)
         if name not in self.words:
             unit, scale = fitting_unit(name, unit, values)
             values, label = values * scale, (f"{self.take} {name}" if self.groups else name).replace("_", " ")
-        elif self.groups:
-            raise ResultError(f"{result.path}: {name} holds words, of which --over can take no {self.take} one")
         values = np.where(kept, values, np.nan)
         self.quantities[name] = (values, with_unit(label, unit_words(unit)))
         known = values[np.isfinite(values)]
@@ -100,18 +99,23 @@ class Sweep:
             self.logarithmic.add(name)
 
     def _kept(self, result, conditions):
-        """Which cases meet every condition, as `mean_slip_ratio < 0.01`, in the units of the file."""
+        """Which cases meet every condition, as `mean_slip_ratio < 0.01` or `law = moes`, in the units of the file."""
         kept = np.ones(len(self.failed), dtype=bool)
         for condition in conditions:
             found = CONDITION.match(condition)
             if not found:
-                raise ResultError(f"--where takes NAME < NUMBER, or with >, <= or >=, not '{condition}'")
-            name, relation, limit = found.groups()
+                raise ResultError(f"--where takes NAME < NUMBER, or with >, <= or >=, or NAME=VALUES, not '{condition}'")
+            name, relation, limit, wanted = found.groups()
             key = None if name in result.summary else key_meant(name, result.sweep)
             if key is None and name not in result.summary:
                 raise ResultError(f"{result.path} has no summary and no key '{name}' to choose cases by")
-            values = np.asarray((result.sweep[key] if key else result.scalar(name)).values, dtype=float)
-            kept &= RELATIONS[relation](self._taken(values), float(limit))
+            values = self._taken(name, (result.sweep[key] if key else result.scalar(name)).values)
+            if relation and values.dtype.kind in "US":
+                raise ResultError(f"{result.path}: {name} holds words: --where {name}=WORD chooses by them")
+            if relation:
+                kept &= RELATIONS[relation](values, float(limit))
+            else:
+                kept &= [is_one_of(value, wanted) for value in values]
         if conditions:
             if not kept.any():
                 raise ResultError(f"{result.path}: no case has {' and '.join(conditions)}")
@@ -124,10 +128,15 @@ class Sweep:
             self.words[name], values = np.unique(values, return_inverse=True)
         return np.asarray(values, dtype=float)
 
-    def _taken(self, values, function=None):
-        """One value for each group of cases; none where a case of it has none."""
-        function = function or TAKEN[self.take]
-        return values if self.groups is None else np.array([function(values[group]) for group in self.groups])
+    def _taken(self, name, values):
+        """One value for each group of cases: none where a case of it has none, of words the one that all cases of it have."""
+        if self.groups is None:
+            return values
+        if values.dtype.kind not in "US":
+            return np.array([TAKEN[self.take](values[group]) for group in self.groups])
+        if any(len(set(values[group])) > 1 for group in self.groups):
+            raise ResultError(f"{name} holds words, of which --over can take no {self.take} one")
+        return np.array([values[group[0]] for group in self.groups])
 
     def lengths(self):
         """Number of different values of each key."""
@@ -370,8 +379,8 @@ def main(arguments=None):
     parser.add_argument("--quantity", default=QUANTITY, help="names in /summary, separated by commas")
     parser.add_argument("--figure", choices=FIGURES, help="what is drawn; what suits the sweep where not given")
     parser.add_argument("--where", action="append", default=[], metavar="CONDITION",
-                        help="only cases with this, as 'mean_slip_ratio < 0.01' or 'speed_rpm >= 600'; a name in /summary (SI) or a "
-                             "swept key (unit of the deck); given more than once, a case must meet all")
+                        help="only cases with this, as 'mean_slip_ratio < 0.01', 'speed_rpm >= 600', speed_rpm=300,600 or law=moes; a "
+                             "name in /summary (SI) or a swept key (unit of the deck); given more than once, a case must meet all")
     parser.add_argument("--over", default="", metavar="KEYS",
                         help="swept keys, separated by commas: cases that differ in them only count as one")
     parser.add_argument("--take", choices=TAKEN, default="largest", help="value of several cases that count as one (default: largest)")

@@ -4,7 +4,9 @@ import h5py
 import numpy as np
 import pytest
 
+from layout import chosen_cases
 from plot_sweep import FIGURES, Sweep, draw_curves, draw_map, draw_parallel, draw_scatter, main, suitable_figure
+from read import read_result
 
 
 def write(path, columns, torque, status=None):
@@ -197,6 +199,23 @@ def test_conditions_leave_out_cases_and_are_told(grid, capsys):
     assert np.array_equal(np.isfinite(values["fast"]), kept) and np.array_equal(values["fast"][kept], values["whole"][kept])
     assert f"{kept.sum()} of 180 cases have speed_rpm >= 600 and mean_torque_drive<12" in draw_scatter(fast).get_suptitle().replace("\n", " ")
     for wrong, words in (("speed_rpm", "takes NAME < NUMBER"), ("sped_rpm > 3", "no summary and no key 'sped_rpm'"),
-                         ("speed_rpm > 1e9", "no case has")):
+                         ("speed_rpm > 1e9", "no case has"), ("law > 3", "law=WORD"), ("law=moss", "no case has")):
         assert main([str(grid), "--where", wrong]) == 2
         assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("condition", ["law=pan_hamrock", "film.law = Pan_Hamrock", "speed_rpm=300,900", "speed=300:500"])
+def test_values_of_swept_keys_choose_as_in_tables(grid, condition):
+    kept = np.isfinite(Sweep(grid, ["mean_torque_drive"], [condition]).quantities["mean_torque_drive"][0])
+    chosen = set(chosen_cases(read_result(grid), [condition]))
+    assert 0 < len(chosen) < 180 and set(np.flatnonzero(kept)) == chosen - {4}  # which has no result
+
+
+def test_words_choose_designs_and_none_is_taken_of_several(grid, capsys):
+    bounded = Sweep(grid, ["mean_torque_drive"], ["law=moes"], ["speed_rpm"])
+    kept = np.isfinite(bounded.quantities["mean_torque_drive"][0])
+    assert set(bounded.words["film.law"][bounded.keys["film.law"][0][kept].astype(int)]) == {"moes"}
+    assert main([str(grid), "--over", "speed_rpm,oil_temperature_degC,law"]) == 2
+    assert "nothing else varies" in capsys.readouterr().err
+    assert main([str(grid), "--where", "law=moes", "--over", "law"]) == 2
+    assert "law holds words, of which --over can take no largest one" in capsys.readouterr().err
