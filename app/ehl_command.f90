@@ -1,12 +1,16 @@
 !> The command `ehl`: the contact itself solved over the cycle, for every case of a deck and every lobe shape of its camshaft.
 !>
 !> In: the command line. Out: tables on the output unit, pressure and film in a file. A case that cannot be solved
-!> is named and does not end the others; the program still ends with its kind of error.
+!> is recorded and does not end the others; the program still ends with its kind of error.
 module camroller_ehl_command
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, pi, two_pi
    use camroller_error, only : error_t, add_context
    use camroller_case, only : case_t
+   use camroller_case_record, only : case_outcome_t
+   use camroller_case_writer, only : abandon_cases, case_writer_t, close_cases, open_cases
    use camroller_cli, only : config_t
+   use camroller_cycle, only : cycle_t
+   use camroller_cycle_remarks, only : judge_lobe
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_console, only : tell_deck_remarks
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
@@ -18,13 +22,19 @@ module camroller_ehl_command
    use camroller_ehl_profiles, only : plain_model
    use camroller_ehl_record, only : ehl_record_t, keep_nodes, make_ehl_record
    use camroller_ehl_summary, only : make_ehl_summary
+   use camroller_events, only : contact_losses, cycle_stops, find_stops
+   use camroller_layout, only : layout_t
+   use camroller_margins, only : find_margins, margins_t
+   use camroller_means, only : statistics_t
    use camroller_model, only : model_t
-   use camroller_output, only : output_t, output_options_t, open_output, abandon_output
+   use camroller_output, only : output_options_t
    use camroller_output_kind, only : result_kind
-   use camroller_run_command, only : check_cases, find_place
-   use camroller_run_facts, only : write_facts
+   use camroller_part_scan, only : study_facts_t
+   use camroller_remarks, only : remark_lines, remark_t
+   use camroller_run_command, only : check_cases, find_place, tell_remarks
+   use camroller_run_facts, only : study_facts
    use camroller_streams, only : print_lines, tell
-   use camroller_study_file, only : close_study
+   use camroller_sweep_file, only : conclude
    implicit none
    private
 
@@ -45,11 +55,12 @@ contains
       type(hdf5_columns_t) :: columns
 
       type(deck_t) :: deck
-      type(output_t) :: writer
+      type(study_facts_t) :: facts
+      type(case_writer_t) :: writer
       type(ehl_file_t) :: file
       type(case_t) :: case
       type(line_t), allocatable :: lines(:)
-      type(error_t), allocatable :: failure, unheard
+      type(error_t), allocatable :: unheard
       character(len=:), allocatable :: path, text
 
       call read_deck(deck, config%subject, config%overrides, error, columns)
@@ -58,73 +69,77 @@ contains
       if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call find_place(config, deck, result_kind, "_ehl.h5", path, error)
       if (allocated(error)) return
+      call study_facts(deck, facts)
       call make_sweep_case(deck, 1, case, error)
-      if (.not. allocated(error)) call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
-      if (.not. allocated(error)) call write_facts(writer, deck, error)
-      if (.not. allocated(error)) call open_ehl(file, writer, merge(2, 1, allocated(case%second_lift)), angle_count, &
+      if (.not. allocated(error)) call open_cases(writer, path, deck, facts, output_options_t(), .false., error)
+      if (.not. allocated(error)) call open_ehl(file, writer%file, merge(2, 1, allocated(case%second_lift)), angle_count, &
          & fewest_nodes, .false., error)
       if (allocated(error)) return
       if (allocated(case%heat) .and. .not. config%is_quiet) call tell("remark: &heat is left out: over the cycle the film "// &
          & "has one temperature; profiles of a run have heat (&ehl profiles = .true.)"//new_line("a"))
-      call solve_cases(deck, config%is_quiet, writer, file, lines, failure, unheard, error)
+      call solve_cases(deck, config%is_quiet, writer, file, lines, unheard, error)
       call close_ehl(file)
-      if (.not. allocated(error) .and. size(lines) == 0) call move_alloc(failure, error)
+      if (.not. allocated(error) .and. size(lines) == 0) error = writer%tally%failure
       if (allocated(error)) then
-         call abandon_output(writer)
+         call abandon_cases(writer)
          return
       end if
-      call close_study(writer, error)
+      call close_cases(writer, error)
       if (allocated(error)) return
       call write_friction(lines, text)
       if (.not. (config%is_quiet .or. allocated(unheard))) call print_lines(text//new_line("a")//path// &
          & ": pressure, film and friction in /ehl", unheard)
+      if (.not. config%is_quiet) call tell_remarks(writer%tally%remarks, deck, .true.)
       if (allocated(unheard)) call move_alloc(unheard, error)
-      if (allocated(failure) .and. .not. allocated(error)) call move_alloc(failure, error)
+      if (.not. allocated(error)) call conclude(writer%tally, error)
    end subroutine ehl_deck
 
    !> Solve, write and report every case.
-   subroutine solve_cases(deck, is_quiet, writer, file, lines, failure, unheard, error)
+   subroutine solve_cases(deck, is_quiet, writer, file, lines, unheard, error)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Print nothing?
       logical, intent(in) :: is_quiet
       !> The result file
-      type(output_t), intent(inout) :: writer
+      type(case_writer_t), intent(inout) :: writer
       !> Where solved contacts go
       type(ehl_file_t), intent(in) :: file
       !> What is printed of each cycle that was solved
       type(line_t), allocatable, intent(out) :: lines(:)
-      !> What went wrong with the first case that was not solved
-      type(error_t), allocatable, intent(out) :: failure
       !> Error of the output unit: the cases go into the file all the same
       type(error_t), allocatable, intent(out) :: unheard
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
       type(case_t) :: case
+      type(case_outcome_t) :: outcome
+      type(layout_t) :: nothing
       type(ehl_record_t) :: record
       type(line_t) :: line
       type(error_t), allocatable :: trouble, without_steady
       character(len=:), allocatable :: text
       integer :: i, lobe
 
-      allocate (lines(0))
+      allocate (lines(0), nothing%summary(0), nothing%series(0), nothing%history(0), nothing%angle(0), &
+         & outcome%summary(0))
+      outcome%reasons = ""
       call write_head(text)
       if (.not. is_quiet) call print_lines(text, unheard)
       do i = 1, sweep_size(deck%sweep)
+         outcome%status = 0
+         outcome%remarks = [remark_t ::]
          do lobe = 1, size(file%lobes)
             call make_sweep_case(deck, i, case, trouble)
-            if (.not. allocated(trouble)) call solve_case(case, lobe == 2, record, line, trouble, without_steady)
+            if (.not. allocated(trouble)) call solve_case(case, lobe == 2, outcome%remarks, record, line, trouble, without_steady)
             if (allocated(without_steady) .and. .not. is_quiet) call tell("remark: "//case_in_words(deck%sweep, i)// &
                & " has no cycle with steady films to compare with: "//without_steady%message//new_line("a"))
             if (allocated(trouble)) then
                if (size(deck%sweep%axes) > 0) call add_context(trouble, case_in_words(deck%sweep, i))
-               if (.not. is_quiet .and. sweep_size(deck%sweep) > 1) call tell(trouble%message//new_line("a"))
-               if (.not. allocated(failure)) call move_alloc(trouble, failure)
-               if (allocated(trouble)) deallocate (trouble)
+               if (outcome%status == 0) outcome%text = trouble%message
+               if (outcome%status == 0) outcome%status = trouble%kind
                cycle
             end if
-            call write_ehl(file, writer, i, lobe, record, error)
+            call write_ehl(file, writer%file, i, lobe, record, error)
             if (allocated(error)) return
             line%case_number = i - 1
             line%lobe = lobe
@@ -132,15 +147,20 @@ contains
             call write_line(line, text)
             if (.not. (is_quiet .or. allocated(unheard))) call print_lines(text, unheard)
          end do
+         if (outcome%status == 0) outcome%text = remark_lines(outcome%remarks)
+         call writer%take(i, outcome, nothing, error)
+         if (allocated(error)) return
       end do
    end subroutine solve_cases
 
    !> One case and lobe shape on two grids that agree, and with steady films.
-   subroutine solve_case(case, is_second, record, line, error, without_steady)
+   subroutine solve_case(case, is_second, remarks, record, line, error, without_steady)
       !> The case
       type(case_t), intent(in) :: case
       !> The second lobe shape?
       logical, intent(in) :: is_second
+      !> Remarks on the case so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
       !> Cycle on the finer grid, its profiles at the nodes of the file
       type(ehl_record_t), intent(out) :: record
       !> What is printed of it
@@ -156,6 +176,8 @@ contains
 
       call cpu_time(start)
       call plain_model(model, case, is_second, error)
+      if (.not. allocated(error)) call judge_forces(model, merge(merge(2, 1, is_second), 0, allocated(case%second_lift)), remarks, &
+         & error)
       if (allocated(error)) return
       call integrate_converged(cycle, model, line%coarse, line%fine, options, error)
       if (allocated(error)) return
@@ -171,5 +193,30 @@ contains
       call cpu_time(finish)
       line%time = finish - start
    end subroutine solve_case
+
+   !> Remarks on what the film has no part in: contact, the pivot's joint, the valve's seat.
+   subroutine judge_forces(model, lobe, remarks, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Lobe shape to be named; 0 where there is one alone
+      integer, intent(in) :: lobe
+      !> Remarks on the case so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+      !> Domain error where the case forbids what happens
+      type(error_t), allocatable, intent(out) :: error
+
+      type(cycle_t) :: cycle
+      type(margins_t) :: margins
+      type(statistics_t) :: statistics
+      ! Angles at which something changes [rad]; intervals without contact [rad]
+      real(wp), allocatable :: stops(:), intervals(:, :)
+
+      call find_stops(model, stops)
+      cycle%stops = cycle_stops(stops, -pi)
+      call find_margins(model, cycle%stops, margins)
+      intervals = contact_losses(model, cycle%stops)
+      statistics%lost_share = sum(intervals(2, :) - intervals(1, :))/two_pi
+      call judge_lobe(model, cycle, statistics, margins, lobe, remarks, error)
+   end subroutine judge_forces
 
 end module camroller_ehl_command

@@ -11,26 +11,15 @@ module camroller_ehl_rerun
    use camroller_ehl_page, only : line_t
    use camroller_ehl_record, only : ehl_record_t
    use camroller_error, only : error_t
-   use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member
+   use camroller_remarks, only : remark_t
    use camroller_console, only : console_t
    implicit none
    private
 
-   public :: is_ehl_file, rerun_contacts
+   public :: rerun_contacts
 
 contains
-
-   !> Does a file hold solved contacts alone?
-   function is_ehl_file(file) result(verdict)
-      !> The file, open
-      type(hdf5_object_t), intent(in) :: file
-      !> Does it?
-      logical :: verdict
-
-      verdict = has_member(file, "/ehl")
-      if (verdict) verdict = .not. has_member(file, "/summary/status")
-   end function is_ehl_file
 
    !> Solve the contacts of a file again, and compare them.
    subroutine rerun_contacts(sink, deck, progress, error)
@@ -77,13 +66,16 @@ contains
       type(case_t) :: case
       type(ehl_record_t) :: record, sampled
       type(line_t) :: line
+      type(remark_t), allocatable :: remarks(:)
       type(error_t), allocatable :: failure, without_steady
       character(len=:), allocatable :: group
 
+      allocate (remarks(0))
       group = "ehl"
       if (is_second) group = "ehl/second_lift"
       call make_sweep_case(deck, number, case, failure)
-      if (.not. allocated(failure)) call solve_case(case, is_second, record, line, failure, without_steady)
+      if (.not. allocated(failure)) call solve_case(case, is_second, remarks, record, line, failure, &
+         & without_steady)
       if (allocated(failure)) then
          call compare_missing(sink, group, number - 1, differs, error)
       else

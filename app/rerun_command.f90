@@ -14,7 +14,7 @@ module camroller_rerun_command
    use camroller_deck_sweep, only : sweep_size
    use camroller_deck_files, only : list_case_tables
    use camroller_deck_tables, only : deck_tables_t, kept_table_t, table_groups
-   use camroller_ehl_rerun, only : is_ehl_file, rerun_contacts
+   use camroller_ehl_rerun, only : rerun_contacts
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, list_members, member_length, open_file, read_extents, read_integer_attribute, &
@@ -24,7 +24,7 @@ module camroller_rerun_command
    use camroller_output, only : not_computed, result_format
    use camroller_console, only : console_t, seconds_since, start_console
    use camroller_quotes, only : in_quotes
-   use camroller_result_columns, only : check_has_cases
+   use camroller_result_columns, only : check_has_cases, holds_contacts_alone
    use camroller_run_facts, only : find_other_build
    use camroller_settings, only : get_word, take
    use camroller_streams, only : print_lines
@@ -60,7 +60,7 @@ contains
       if (allocated(error)) return
       call read_stored_deck(sink%file, config%subject, deck, error)
       if (.not. allocated(error)) call find_other_build(sink%file, facts, error)
-      holds_contacts = is_ehl_file(sink%file)
+      holds_contacts = holds_contacts_alone(sink%file)
       if (.not. (allocated(error) .or. holds_contacts)) call choose_series(sink%file, deck, loop, error)
       if (.not. (allocated(error) .or. holds_contacts)) call choose_cases(sink%file, sweep_size(deck%sweep), runs, error)
       if (.not. allocated(error)) call set_threads(loop, config%threads, error)

@@ -30,7 +30,7 @@ module camroller_run_command
    implicit none
    private
 
-   public :: run_deck, sweep_deck, merge_deck, check_cases, find_place
+   public :: run_deck, sweep_deck, merge_deck, check_cases, find_place, tell_remarks
 
 contains
 

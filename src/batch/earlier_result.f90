@@ -11,7 +11,8 @@ module camroller_earlier_result
       & read_text_attribute
    use camroller_number_text, only : agreeing, counted, integer_text
    use camroller_output, only : not_computed, result_format
-   use camroller_part_scan, only : study_facts_t
+   use camroller_part_scan, only : difference, study_facts_t
+   use camroller_result_columns, only : holds_contacts_alone
    use camroller_run_facts, only : find_other_build, study_digest
    implicit none
    private
@@ -105,6 +106,8 @@ contains
       earlier%reason = "it has no status of each case"
       if (.not. has_member(file, "/summary")) return
       if (.not. has_member(file, "/summary/status")) return
+      earlier%reason = "it holds the solved contacts of 'camroller ehl'"
+      if (holds_contacts_alone(file)) return
       call read_extents(file, "/summary/status", 1, extents, error)
       if (allocated(error)) return
       if (extents(1) /= cases) return

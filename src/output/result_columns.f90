@@ -5,13 +5,13 @@ module camroller_result_columns
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file, kind_usage
    use camroller_hdf5_object, only : hdf5_object_t
-   use camroller_hdf5_read, only : check_extents, has_member, is_text_dataset, open_file, read_extents, read_integer_attribute, &
-      & read_numbers, read_text, read_text_attribute
+   use camroller_hdf5_read, only : check_extents, has_member, is_text_dataset, list_members, member_length, open_file, &
+      & read_extents, read_integer_attribute, read_numbers, read_text, read_text_attribute
    use camroller_output_file, only : format_version, result_format
    implicit none
    private
 
-   public :: word_t, table_t, open_result, check_has_cases, read_column, make_columns, head_column
+   public :: word_t, table_t, open_result, check_has_cases, holds_contacts_alone, read_column, make_columns, head_column
 
    !> A word of the table
    type :: word_t
@@ -84,6 +84,12 @@ contains
 
       character(len=:), allocatable :: command
 
+      if (holds_contacts_alone(file)) then
+         if (.not. is_with_contacts) call raise(error, kind_usage, "'"//file%file//"' is a file of 'camroller ehl', with "// &
+            & "solved contacts in /ehl and no series and scalars that could be exported; 'camroller rerun' computes it again, "// &
+            & "'python post/ehl.py' draws it")
+         return
+      end if
       if (has_member(file, "/summary")) then
          if (has_member(file, "/summary/status")) return
       end if
@@ -92,11 +98,24 @@ contains
          if (has_member(file, "/study/audit")) command = "audit"
          call raise(error, kind_usage, "'"//file%file//"' is a file of 'camroller "//command//"', with a table in /study and "// &
             & "no cases that could be exported or computed again; 'python post/plot_"//command//".py' draws it")
-      else if (has_member(file, "/ehl") .and. .not. is_with_contacts) then
-         call raise(error, kind_usage, "'"//file%file//"' is a file of 'camroller ehl', with solved contacts in /ehl and no "// &
-            & "series and scalars that could be exported; 'camroller rerun' computes it again, 'python post/ehl.py' draws it")
       end if
    end subroutine check_has_cases
+
+   !> Does a file hold solved contacts alone? Where they stand beside results, the summary has more than the status of each case.
+   function holds_contacts_alone(file) result(verdict)
+      !> A result file
+      type(hdf5_object_t), intent(in) :: file
+      !> Does it?
+      logical :: verdict
+
+      character(len=member_length), allocatable :: names(:)
+      type(error_t), allocatable :: error
+
+      verdict = has_member(file, "/ehl")
+      if (.not. verdict) return
+      call list_members(file, "/summary", names, error)
+      if (.not. allocated(error)) verdict = all(names == "status")
+   end function holds_contacts_alone
 
    !> Read a dataset with one value for each case into a column.
    subroutine read_column(file, name, table, position, error)

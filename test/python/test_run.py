@@ -234,15 +234,39 @@ def test_a_higher_accuracy_takes_more_nodes(camroller, tmp_path):
 
 def test_a_failed_case_of_ehl_has_no_numbers_and_the_others_do(camroller, tmp_path):
     path = tmp_path / "two.h5"
-    result = run(camroller, "ehl", ROOT / "decks/numerical_film.nml", "-o", path, "--set", "sweep.values_1=300", "--set",
-                 "sweep.key_2=mechanism.contact_width_mm", "--set", "sweep.values_2=13.7, 1", "--set",
-                 "operating_point.oil_temperature_degC=60", folder=tmp_path)
+    study = ["--set", "sweep.values_1=300", "--set", "sweep.key_2=mechanism.contact_width_mm", "--set", "sweep.values_2=13.7, 1", "--set",
+             "operating_point.oil_temperature_degC=60"]
+    result = run(camroller, "ehl", ROOT / "decks/numerical_film.nml", "-o", path, *study, folder=tmp_path)
     assert result.returncode == DOMAIN, result.stderr
     with h5py.File(path) as file:
         for name in set(file["ehl"]) - {"angle", "node"}:
             values = file["ehl"][name][()]
             assert numpy.isfinite(values[0]).all(), name
             assert numpy.isnan(values[1]).all(), name
+        assert list(file["summary/status"]) == [0, DOMAIN]
+        messages = [text.decode() for text in file["run/messages"]]
+    assert messages[0] == "" and messages[1].startswith("case 1 (operating_point.speed_rpm=300, mechanism.contact_width_mm=1): ehl: ")
+    assert result.stderr.splitlines()[1:] == [f"camroller: 1 of 2 cases has no result: {messages[1]}"] and "unusual" in result.stderr
+    sweep = run(camroller, "sweep", ROOT / "decks/numerical_film.nml", "-o", path, "--resume", *study, folder=tmp_path)
+    assert sweep.returncode == FILE and "it holds the solved contacts of 'camroller ehl'" in sweep.stderr
+
+
+@pytest.mark.parametrize("policy", ["stop", "warn"])
+def test_contacts_that_are_lost_are_told_as_of_a_run(camroller, tmp_path, policy):
+    """Without the film: by the margins and the angles of the rigid train."""
+    values = ["--set", f"case.contact_policy={policy}", "--set", "sweep.values_1=300,3000", "--set", "sweep.values_2=25", *COARSE]
+    told = {}
+    for command in ("run", "ehl"):
+        result = run(camroller, command, THESIS, "-o", f"{command}.h5", *values, folder=tmp_path)
+        assert result.returncode == (DOMAIN if policy == "stop" else 0), result.stderr
+        with h5py.File(tmp_path / f"{command}.h5") as file:
+            assert list(file["summary/status"]) == [0, DOMAIN if policy == "stop" else 0]
+            texts = file["run/messages" if policy == "stop" else "run/warnings"][1].decode().splitlines()
+        lines = [line for line in result.stderr.splitlines() if "contact is lost for 2.85 % of the cycle at 3000 rev/min" in line]
+        told[command] = [text for text in texts if "contact is lost" in text] + lines
+    assert told["run"] == told["ehl"] and len(told["run"]) == 2
+    again = run(camroller, "rerun", "ehl.h5", folder=tmp_path)
+    assert again.returncode == 0 and "2 cases are the same to the last bit" in again.stdout
 
 
 def test_every_lobe_shape_is_solved_and_opens_in_xarray(camroller, tmp_path):
