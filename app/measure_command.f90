@@ -8,6 +8,7 @@ module camroller_measure_command
    use camroller_audit, only : new_audit_table, audit_case
    use camroller_audit_page, only : write_audit_page
    use camroller_case, only : case_t
+   use camroller_case_writer, only : tally_t
    use camroller_cli, only : config_t
    use camroller_command_table, only : command_t, find_command, find_option, list_commands
    use camroller_hdf5_columns, only : hdf5_columns_t
@@ -28,6 +29,7 @@ module camroller_measure_command
    use camroller_study_file, only : write_study, close_study
    use camroller_study_page, only : write_study_page
    use camroller_study_table, only : study_table_t, column_of
+   use camroller_sweep_file, only : conclude
    implicit none
    private
 
@@ -66,10 +68,12 @@ contains
    subroutine show_laws(deck, error)
       !> The deck
       type(deck_t), intent(in) :: deck
-      !> Deck error of a case, file error of the output unit
+      !> Deck error of a case, file error of the output unit; the first failure where there are several
       type(error_t), allocatable, intent(out) :: error
 
       type(case_t) :: case
+      type(tally_t) :: tally
+      type(error_t), allocatable :: failure
       character(len=:), allocatable :: text
       integer :: i
 
@@ -79,9 +83,11 @@ contains
          if (allocated(error)) return
          text = ""
          if (size(deck%sweep%axes) > 0) text = new_line("a")//case_in_words(deck%sweep, i)
-         call add_laws_table(case, text)
+         call add_laws_table(case, text, failure)
+         call count_case(tally, deck, i, failure)
          call print_lines(text, error)
       end do
+      if (.not. allocated(error)) call conclude(tally, error)
    end subroutine show_laws
 
    !> Influence and cost of each effect.
@@ -161,7 +167,7 @@ contains
       type(output_t) :: writer
       type(console_t) :: progress
       type(study_table_t) :: table
-      type(error_t), allocatable :: failure
+      type(tally_t) :: tally
       character(len=:), allocatable :: path, page
 
       call read_deck(deck, config%subject, config%overrides, error, columns)
@@ -174,11 +180,11 @@ contains
       call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)
       if (allocated(error)) return
-      call measure_cases(deck, config, what, progress, table, failure)
+      call measure_cases(deck, config, what, progress, table, tally)
       call progress%end_cases()
       if (.not. any(column_of(table, "status") <= 0.0)) then
          call abandon_output(writer)
-         call move_alloc(failure, error)
+         error = tally%failure
          return
       end if
       call write_study(writer, trim(names(what)), trim(titles(what)), table, error)
@@ -191,11 +197,11 @@ contains
       end if
       if (.not. config%is_quiet) call print_lines(page//new_line("a")//path//": "//counted(sweep_size(deck%sweep), "case")// &
          & " in "//seconds_since(progress), error)
-      if (allocated(failure) .and. .not. allocated(error)) call move_alloc(failure, error)
+      if (.not. allocated(error)) call conclude(tally, error)
    end subroutine measure_deck
 
    !> Measure every case.
-   subroutine measure_cases(deck, config, what, progress, table, failure)
+   subroutine measure_cases(deck, config, what, progress, table, tally)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> What to do
@@ -206,8 +212,8 @@ contains
       type(console_t), intent(inout) :: progress
       !> The table
       type(study_table_t), intent(out) :: table
-      !> The first failure
-      type(error_t), allocatable, intent(out) :: failure
+      !> What happened to the cases
+      type(tally_t), intent(out) :: tally
 
       type(case_t) :: case
       type(error_t), allocatable :: error
@@ -227,12 +233,27 @@ contains
                call audit_case(table, i, case, config%repeats, .true., error)
             end select
          end if
-         if (allocated(error)) then
-            if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, i))
-            if (.not. allocated(failure)) call move_alloc(error, failure)
-         end if
+         call count_case(tally, deck, i, error)
          call progress%show(i, sweep_size(deck%sweep))
       end do
    end subroutine measure_cases
+
+   !> Take note of what happened to a case.
+   subroutine count_case(tally, deck, number, failure)
+      !> What happened to the cases so far
+      type(tally_t), intent(inout) :: tally
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Number of the case, from 1
+      integer, intent(in) :: number
+      !> Why it has no result, if it has none
+      type(error_t), allocatable, intent(inout) :: failure
+
+      tally%cases = tally%cases + 1
+      if (.not. allocated(failure)) return
+      tally%failed = tally%failed + 1
+      if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, number))
+      if (tally%failed == 1) call move_alloc(failure, tally%failure)
+   end subroutine count_case
 
 end module camroller_measure_command

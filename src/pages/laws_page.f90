@@ -41,11 +41,13 @@ module camroller_laws_page
 contains
 
    !> Table of one case; a law that the case cannot be run with is told in its line.
-   subroutine add_laws_table(case, text)
+   subroutine add_laws_table(case, text, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Lines so far
       character(len=:), allocatable, intent(inout) :: text
+      !> Why the case has no result with its own law, or, where that is numerical, with any
+      type(error_t), allocatable, intent(out) :: error
 
       type(case_t) :: variant
       type(result_t) :: result
@@ -75,6 +77,7 @@ contains
          line = line//repeat(" ", max(0, first_width - len(line)))
          if (allocated(failure)) then
             text = text//n//line(:first_width)//"  "//failure%message
+            if (line(:1) == ">") error = failure
             cycle
          end if
          laws = laws + 1
@@ -97,6 +100,7 @@ contains
          text = text//n//line
       end if
       if (worst /= "") text = text//n//"  "//worst//": the worst of all lobe shapes"
+      if (laws == 0 .and. .not. allocated(error)) call move_alloc(failure, error)
    end subroutine add_laws_table
 
    !> Values of the columns.

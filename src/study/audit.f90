@@ -4,7 +4,7 @@
 !> In: a case. Out: rows of `study_table_t`. A variant that fails is a row with a message and no numbers.
 module camroller_audit
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t
+   use camroller_error, only : error_t, raise
    use camroller_case, only : case_t, select_names
    use camroller_effect_choice, only : choose_effects
    use camroller_effect_list, only : choice_t, decision_t, effect_names, effect_count, effect_bearings, effect_ehl, &
@@ -84,6 +84,7 @@ contains
       if (.not. allocated(error)) call choose_effects(listed, models, variant, choice, error)
       if (allocated(error)) return
       call run_trial(listed, repeats, full)
+      if (full%status /= 0) call raise(error, full%status, full%message)
       call add_outcome(table, position, run_listed, full, full, full)
       variant = listed
       variant%effects%select = select_names(2)

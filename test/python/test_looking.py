@@ -217,6 +217,12 @@ def test_study_of_laws_shows_the_worst_of_several_lobe_shapes(camroller, tmp_pat
     row = next(line for line in text.splitlines() if line.startswith("> ")).split()
     assert float(row[5]) == pytest.approx(100 * max(scalars["slip"], key=abs), rel=5e-3)
     assert float(row[6]) == pytest.approx(1e6 * min(scalars["film"]), rel=5e-3)
+def test_study_of_laws_ends_with_the_code_of_a_case_without_a_result(camroller):
+    values = ["--set", "case.contact_policy=stop", "--set", "sweep.values_1=300,3000", "--set", "sweep.values_2=25"]
+    words = run(camroller, "study", "decks/thesis.nml", "--laws", *values, code=4).stderr
+    assert words.startswith("camroller: 1 of 2 cases has no result: case 1 (operating_point.speed_rpm=3000, operating_point.oil_")
+
+
     assert float(row[7]) == pytest.approx(min(scalars["ratio"]), rel=5e-3)
     assert scalars["film"][0] > 1.01 * scalars["film"][1], "the film of the second shape can be told from the first's by three digits"
     assert text.splitlines()[-1] == "  outside its range, mean slip, smallest film, film ratio: the worst of all lobe shapes"
