@@ -1,14 +1,15 @@
 !> Tables of cases: one column for each key that varies, one row for each case, from a text or a file that a reader takes.
 !>
 !> In: a path. Out: columns of texts under the names of their keys. In text, the first line that is no comment
-!> holds the names, as `group.key`; columns are parted by commas, semicolons, blanks or tabulators, `#` or `!` begins a comment,
-!> names may stand in quotes.
+!> holds the names, as `group.key`; columns are parted by commas, semicolons, blanks or tabulators, names and values may stand in
+!> quotes, a word that begins with `#` or `!` begins a comment.
 module camroller_sweep_table
    use camroller_error, only : error_t
    use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_text_lines, only : text_lines_t, split_lines, line_at
-   use camroller_number_text, only : integer_text, is_number
+   use camroller_number_text, only : counted, integer_text, is_number
    use camroller_deck_values, only : split_words, longest_text
+   use camroller_table_file, only : on_commas
    use camroller_text_encoding, only : check_encoding
    use camroller_text_file, only : read_text_file
    use camroller_text_list, only : new_text_list, put_text_at
@@ -75,8 +76,9 @@ contains
 
       type(text_lines_t) :: lines
       character(len=longest_text) :: words(most_columns + 1)
+      character(len=:), allocatable :: advice
       integer, allocatable :: widths(:)
-      integer :: i, j, n, rows, pass
+      integer :: i, j, n, rows, pass, before
 
       call split_lines(text, lines)
       call check_encoding(lines, mistakes, path)
@@ -84,7 +86,8 @@ contains
       do pass = 1, 2
          rows = -1
          do i = 1, lines%count
-            call split_words(text(lines%first(i):end_of_values(text, lines%first(i), lines%last(i))), words, n)
+            call split_words(text(lines%first(i):lines%last(i)), words, n)
+            n = before_comment(words(:n))
             if (n == 0) cycle
             rows = rows + 1
             if (n > most_columns) then
@@ -93,7 +96,9 @@ contains
                   & " columns", i, 0, 0, path, line_at(lines, i))
                if (rows < 0) return
             else if (pass == 1 .and. rows == 0) then
+               before = mistakes%count
                call check_heading(words(:n), path, i, line_at(lines, i), mistakes)
+               if (mistakes%count > before) return
                deallocate (columns)
                allocate (columns(n), widths(n))
                widths = 1
@@ -103,8 +108,10 @@ contains
                end do
             else if (n /= size(columns)) then
                rows = rows - 1
-               if (pass == 1) call add_mistake(mistakes, "a row has "//integer_text(size(columns))//" columns, not "// &
-                  & integer_text(n), i, 0, 0, path, line_at(lines, i))
+               advice = ""
+               if (n > size(columns) .and. index(line_at(lines, i), ",") > 0) advice = on_commas
+               if (pass == 1) call add_mistake(mistakes, "this row has "//counted(n, "column")//", the heading has "// &
+                  & integer_text(size(columns))//advice, i, 0, 0, path, line_at(lines, i))
             else if (pass == 1) then
                widths = max(widths, len_trim(words(:n)))
             else if (rows > 0) then
@@ -144,18 +151,17 @@ contains
       end if
    end subroutine check_heading
 
-   !> Where the values of a line end: before its comment.
-   pure function end_of_values(text, first, last) result(place)
-      !> The text
-      character(len=*), intent(in) :: text
-      !> Ends of the line
-      integer, intent(in) :: first, last
-      !> The place
-      integer :: place
+   !> Number of words before the comment of a line.
+   pure function before_comment(words) result(number)
+      !> Words of the line
+      character(len=*), intent(in) :: words(:)
+      !> The number
+      integer :: number
 
-      place = scan(text(first:last), "#!")
-      place = merge(last, first + place - 2, place == 0)
-   end function end_of_values
+      do number = 0, size(words) - 1
+         if (scan(words(number + 1), "#!") == 1) return
+      end do
+   end function before_comment
 
    !> Take quotes around a word away.
    pure subroutine cut_quotes(word)

@@ -44,6 +44,8 @@ module camroller_table_file
       character(len=column_name_length) :: names(2) = "", units(2) = ""
    end type table_t
 
+   !> What to say of a line with commas whose columns are too many
+   character(len=*), parameter, public :: on_commas = "; a comma parts columns, decimals have a point"
    !> What parts columns
    character(len=*), parameter :: separators = " ,;"//char(9)
    !> An interval so many times the median is a gap [-]
@@ -290,7 +292,7 @@ contains
          return
       end if
       words = ""
-      if (index(line(:length), ",") > 0) words = "; a comma parts columns, decimals have a point"
+      if (index(line(:length), ",") > 0) words = on_commas
       if (places(4) > 0) then
          call add_mistake(mistakes, "a row has as many columns as its heading, "//integer_text(places(4))//", not "// &
             & integer_text(columns)//words, number, 0, 0, path, line)

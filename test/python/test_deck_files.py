@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 
+import h5py
 import pytest
 
 from conftest import ROOT, run
@@ -150,7 +151,7 @@ def test_mistakes_in_a_table_of_cases_name_its_lines(camroller, tmp_path):
     assert f"{table}:5: value 2 of roller.mass_kg: 'mass_kg' must be" in errors
     assert f"{table}:6: value 3 of film.law: 'law' must be" in errors
     table.write_text("roller.mass_kg, film.law\n0.01, moes\n0.01\n", encoding="utf-8")
-    assert f"{table}:3: a row has 2 columns, not 1" in check(camroller, tmp_path / "deck.nml").stderr
+    assert f"{table}:3: this row has 1 column, the heading has 2\n" in check(camroller, tmp_path / "deck.nml").stderr
     table.write_text("roller.mass_kg\n", encoding="utf-8")
     assert f"{table}: the table has no cases" in check(camroller, tmp_path / "deck.nml").stderr
 
@@ -165,6 +166,31 @@ def test_a_table_of_cases_without_names_says_what_belongs_there(camroller, tmp_p
     (tmp_path / "deck.nml").write_text(deck, encoding="utf-8")
     result = check(camroller, tmp_path / "deck.nml")
     assert result.returncode == DECK and words in result.stderr
+
+
+@pytest.mark.parametrize(("text", "words"), [
+    ("operating_point.speed_rpm;operating_point.oil_temperature_degC\n600,5;60\n900;60\n",
+     ":2: this row has 3 columns, the heading has 2; a comma parts columns, decimals have a point"),
+    ("operating_point.speed_rpm, measured.torque [N m]\n600, 0.1\n900, 0.2\n", ":1: a name with a blank"),
+])
+def test_a_table_of_cases_has_one_mistake_for_one_reason(camroller, tmp_path, text, words):
+    (tmp_path / "cases.csv").write_text(text, encoding="utf-8")
+    deck = re.sub(r"&sweep.*", "&sweep kind = 'table' table = 'cases.csv' /\n", THESIS, flags=re.S)
+    (tmp_path / "deck.nml").write_text(deck, encoding="utf-8")
+    errors = check(camroller, tmp_path / "deck.nml").stderr
+    assert words in errors and errors.count("cases.csv:") == 1
+
+
+def test_a_comment_in_a_table_of_cases_begins_with_its_word(camroller, tmp_path):
+    """Anywhere else its sign is a part of the word; nothing is cut off in silence."""
+    (tmp_path / "cases.csv").write_text("# a title!\ncase.title operating_point.speed_rpm ! names\nrun#3 600 # the first\n"
+                                        "'run #4' 700 !\n\"it's #5!\" 800\n", encoding="utf-8")
+    deck = re.sub(r"&sweep.*", "&sweep kind = 'table' table = 'cases.csv' /\n", THESIS, flags=re.S)
+    (tmp_path / "deck.nml").write_text(deck + "&output angle_step_deg = 10 /\n", encoding="utf-8")
+    subprocess.run([camroller, "sweep", "deck.nml", "--quiet"], cwd=tmp_path, check=True, capture_output=True)
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert [text.decode() for text in file["sweep/case.title"]] == ["run#3", "run #4", "it's #5!"]
+        assert list(file["sweep/operating_point.speed_rpm"]) == [600, 700, 800]
 
 
 def test_text_that_is_no_utf8_is_refused_with_its_line(camroller, tmp_path):

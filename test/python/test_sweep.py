@@ -393,7 +393,7 @@ def test_a_result_is_a_table_of_its_cases(camroller, deck, reference, tmp_path):
     ("kind = 'zip' key_1 = 'operating_point.speed_rpm' values_1 = 1, 2 key_2 = 'roller.radius_mm' values_2 = 8", "one length"),
     ("kind = 'table'", "kind = 'table' needs 'table'"),
     ("kind = 'table' table = 'none.csv'", "there is no file"),
-    ("kind = 'table' table = 'bad.csv'", "bad.csv:3: a row has 2 columns, not 1"),
+    ("kind = 'table' table = 'bad.csv'", "bad.csv:3: this row has 1 column, the heading has 2"),
     ("kind = 'table' table = 'wrong.csv'", "unknown key 'speed'"),
     ("kind = 'grid' cases = 3 key_1 = 'operating_point.speed_rpm' values_1 = 1, 2", "'cases' is for samples"),
     ("key_1 = 'film.law' from_1 = 1 to_1 = 2 count_1 = 2", "takes names, which have no range"),
