@@ -55,6 +55,8 @@ module camroller_remarks
       integer :: lobe = 0
       !> Severity: the larger the worse; zero where its kind has no number [unit of the kind]
       real(wp) :: size = 0.0_wp
+      !> What decides between remarks of one size: the larger the worse [-]
+      real(wp) :: excess = 0.0_wp
       !> In words, on one line
       character(len=:), allocatable :: text
    end type remark_t
@@ -78,7 +80,7 @@ module camroller_remarks
 contains
 
    !> Add a remark to those of a case.
-   pure subroutine add_remark(remarks, kind, text, size)
+   pure subroutine add_remark(remarks, kind, text, size, excess)
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
       !> One of the kinds of this module
@@ -87,6 +89,8 @@ contains
       character(len=*), intent(in) :: text
       !> Severity, where its kind has a number [unit of the kind]
       real(wp), intent(in), optional :: size
+      !> What decides between remarks of one size [-]
+      real(wp), intent(in), optional :: excess
 
       type(remark_t) :: remark
 
@@ -94,6 +98,7 @@ contains
       remark%kind = kind
       remark%text = text
       if (present(size)) remark%size = size
+      if (present(excess)) remark%excess = excess
       remarks = [remarks, remark]
    end subroutine add_remark
 
@@ -147,7 +152,7 @@ contains
          end do
          if (i > size(remarks%groups)) remarks%groups = [remarks%groups, fresh]
          associate (group => remarks%groups(i))
-            if (group%cases == 0 .or. of_case(k)%size > group%worst%size) then
+            if (group%cases == 0 .or. is_worse(of_case(k), group%worst)) then
                group%worst = of_case(k)
                group%case_number = case_number
             end if
@@ -156,5 +161,21 @@ contains
          end associate
       end do
    end subroutine note_remarks
+
+   !> Is a remark worse than another of its kind? Sizes that differ by rounding count as equal.
+   pure function is_worse(one, other) result(verdict)
+      !> Both remarks
+      type(remark_t), intent(in) :: one, other
+      !> Is the first one worse?
+      logical :: verdict
+
+      real(wp), parameter :: rounding = sqrt(epsilon(1.0_wp)) ! [-]
+
+      if (abs(one%size - other%size) <= rounding*abs(other%size)) then
+         verdict = one%excess > other%excess
+      else
+         verdict = one%size > other%size
+      end if
+   end function is_worse
 
 end module camroller_remarks

@@ -10,7 +10,7 @@ module camroller_film_range
    implicit none
    private
 
-   public :: film_range_t, group_names, note_film, matters, range_in_words
+   public :: film_range_t, group_names, note_film, matters, range_in_words, distance_outside
 
    !> Part of the friction loss that a film outside of its law's range may have on the base circle without a word [-]
    real(wp), parameter :: small_part = 0.01_wp
@@ -60,6 +60,25 @@ contains
 
       verdict = range%share > 0.0_wp .and. (range%event_share > 0.0_wp .or. range%outside_loss > small_part*range%loss)
    end function matters
+
+   !> How far the groups are outside, as the logarithm of the largest factor between one and its bound.
+   pure function distance_outside(range, law) result(distance)
+      !> What is known
+      type(film_range_t), intent(in) :: range
+      !> Position of the law in `film_law_names`
+      integer, intent(in) :: law
+      !> The logarithm; zero where the law has no published range [-]
+      real(wp) :: distance
+
+      ! Published bounds of the groups [-]
+      real(wp) :: bounds(2, group_count)
+
+      distance = 0.0_wp
+      if (law == law_table) return
+      bounds = max(published_range(law), tiny(1.0_wp))
+      distance = max(0.0_wp, maxval(log(bounds(1, :)) - log(max(range%smallest, tiny(1.0_wp)))), &
+         & maxval(log(max(range%largest, tiny(1.0_wp))) - log(bounds(2, :))))
+   end function distance_outside
 
    !> Where, which groups with their bounds, how much loss, and which laws cover it.
    pure subroutine range_in_words(range, law, words)

@@ -22,7 +22,7 @@ module camroller_case_record
    !> In the place of the number of nodes: profiles were asked for and could not be solved
    integer, parameter :: unsolved = -1
    !> Words of a case besides its numbers, with a remark of the usual length
-   integer, parameter :: words_of_case = 26
+   integer, parameter :: words_of_case = 27
 
    !> One case
    type :: case_outcome_t
@@ -87,7 +87,7 @@ contains
       do i = 1, size(result%remarks)
          call put_integer(record, result%remarks(i)%kind)
          call put_integer(record, result%remarks(i)%lobe)
-         call put_numbers(record, [result%remarks(i)%size])
+         call put_numbers(record, [result%remarks(i)%size, result%remarks(i)%excess])
          call put_text(record, result%remarks(i)%text)
       end do
       call put_text(record, reasons)
@@ -178,8 +178,8 @@ contains
       !> The case
       type(case_outcome_t), intent(inout) :: outcome
 
-      ! Number of a remark [unit of its kind]
-      real(wp) :: number(1)
+      ! Size of a remark [unit of its kind], and what decides between equal ones [-]
+      real(wp) :: numbers(2)
       integer :: has_series, nodes, count, i
 
       call take_integer(record, outcome%status)
@@ -198,8 +198,9 @@ contains
       do i = 1, count
          call take_integer(record, outcome%remarks(i)%kind)
          call take_integer(record, outcome%remarks(i)%lobe)
-         call take_numbers(record, number)
-         outcome%remarks(i)%size = number(1)
+         call take_numbers(record, numbers)
+         outcome%remarks(i)%size = numbers(1)
+         outcome%remarks(i)%excess = numbers(2)
          call take_text(record, outcome%remarks(i)%text)
       end do
       outcome%text = remark_lines(outcome%remarks)

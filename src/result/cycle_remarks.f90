@@ -12,7 +12,7 @@ module camroller_cycle_remarks
    use camroller_cycle, only : cycle_t
    use camroller_events, only : contact_losses
    use camroller_film, only : law_masjedi_khonsari_rough
-   use camroller_film_range, only : matters, range_in_words
+   use camroller_film_range, only : distance_outside, matters, range_in_words
    use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : margins_t
@@ -365,7 +365,8 @@ contains
       if (model%stops_outside_range) then
          call raise(error, kind_domain, text//" (range_policy = 'stop')")
       else if (matters(statistics%film_range)) then
-         call add_remark(remarks, outside_range, text, 100.0_wp*statistics%film_range%share)
+         call add_remark(remarks, outside_range, text, 100.0_wp*statistics%film_range%share, &
+            & distance_outside(statistics%film_range, model%film_law))
       end if
    end subroutine check_range
 

@@ -3,7 +3,7 @@ module test_film_range
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_film, only : groups_t, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_table
-   use camroller_film_range, only : film_range_t, matters, note_film, range_in_words
+   use camroller_film_range, only : distance_outside, film_range_t, matters, note_film, range_in_words
    implicit none
    private
 
@@ -19,7 +19,8 @@ contains
          new_unittest("a base circle without a loss that counts asks for no word", test_base_circle), &
          new_unittest("the event, or a base circle with a loss, asks for one", test_event), &
          new_unittest("words name group, value, bounds, place, loss and the law that covers it", test_words), &
-         new_unittest("a table of solutions has no published bounds to tell", test_table) &
+         new_unittest("a table of solutions has no published bounds to tell", test_table), &
+         new_unittest("how far a range is left is that of the group farthest outside, on either side", test_distance) &
          ]
    end subroutine collect_film_range
 
@@ -30,6 +31,20 @@ contains
 
       made = groups_t(speed, 4400.0_wp, load, 0.0_wp, 0.0_wp)
    end function groups
+
+   !> Dowson and Higginson: U from 1e-13 to 1e-10, W* from 1.5e-5 to 3e-4.
+   subroutine test_distance(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(film_range_t) :: range
+
+      call note_film(range, groups(3.0e-10_wp, 1.0e-4_wp), .false., .true., 0.1_wp, 0.5_wp)
+      call check(error, distance_outside(range, law_dowson_higginson), log(3.0_wp), thr=1.0e-12_wp)
+      if (allocated(error)) return
+      call note_film(range, groups(1.0e-11_wp, 3.0e-6_wp), .false., .true., 0.1_wp, 0.5_wp)
+      call check(error, distance_outside(range, law_dowson_higginson), log(5.0_wp), thr=1.0e-12_wp)
+      if (allocated(error)) return
+      call check(error, distance_outside(range, law_table), 0.0_wp)
+   end subroutine test_distance
 
    subroutine test_inside(error)
       type(error_type), allocatable, intent(out) :: error

@@ -18,6 +18,7 @@ contains
 
       testsuite = [ &
          new_unittest("remarks of a case are lines", test_lines), &
+         new_unittest("of remarks of one size, up to rounding, the excess says which is the worst", test_excess), &
          new_unittest("remarks are grouped by kind whatever their words, with the worst of each", test_groups), &
          new_unittest("remarks on lobe shapes are groups of their own, and a case with two remarks counts once", test_lobes) &
          ]
@@ -61,6 +62,25 @@ contains
       if (allocated(error)) return
       call check(error, remarks%groups(3)%worst%text, "77")
    end subroutine test_groups
+
+   subroutine test_excess(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(remarks_t) :: remarks
+      type(remark_t) :: of_case(4)
+      integer :: i
+
+      of_case(1) = remark(outside_range, 100.0_wp*(1.0_wp + epsilon(1.0_wp)), "near")
+      of_case(2) = remark(outside_range, 100.0_wp, "far")
+      of_case(3) = remark(outside_range, 100.0_wp*(1.0_wp + 2.0_wp*epsilon(1.0_wp)), "near as well")
+      of_case(4) = remark(outside_range, 99.0_wp, "farthest for a shorter time")
+      of_case%excess = [0.1_wp, 2.0_wp, 0.2_wp, 3.0_wp]
+      do i = 1, size(of_case)
+         call note_remarks(remarks, i, of_case(i:i))
+      end do
+      call check(error, remarks%groups(1)%worst%text, "far")
+      if (allocated(error)) return
+      call check(error, remarks%groups(1)%case_number, 2)
+   end subroutine test_excess
 
    subroutine test_lobes(error)
       type(error_type), allocatable, intent(out) :: error
