@@ -249,6 +249,18 @@ class Layout:
         return words
 
 
+def not_computed(result):
+    """Cases that a partial file does not have."""
+    status = result.summary.get("status")
+    return set() if status is None else set(np.flatnonzero(np.equal(status.values, -1)).tolist())
+
+
+def not_computed_words(result):
+    """How many cases a partial file does not have; empty where it has all."""
+    count = len(not_computed(result))
+    return f"{count} of {result.cases} cases {'was' if count == 1 else 'were'} not computed" if count else ""
+
+
 def _has_lost_contact(result, case):
     """Is contact lost for a part of the cycle, by any lobe?"""
     return any(name.endswith("lost_contact_share") and np.shape(share.values) == (result.cases,) and share.values[case] > 0.0

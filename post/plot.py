@@ -28,8 +28,8 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
 
 from command import DPI, run, save_figure  # noqa: E402
 from figures import FIGURES, draw  # noqa: E402
-from layout import Layout, chosen_cases  # noqa: E402
-from measured import compare, draw_comparison, read_table  # noqa: E402
+from layout import Layout, chosen_cases, not_computed, not_computed_words  # noqa: E402
+from measured import case_for, case_words, compare, draw_comparison, read_table  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 
@@ -81,7 +81,10 @@ def draw_measured(result, options):
 def remarks(results, layout):
     """Lines on what is not drawn: cases without a result, of many the first only, and without series."""
     for result, chosen in zip(results, layout.chosen):
-        failed = [(case, reason) for case, reason in result.failed_cases() if case in chosen]
+        missing = not_computed(result)
+        if missing:
+            yield f"{result.path}: {not_computed_words(result)}"
+        failed = [(case, reason) for case, reason in result.failed_cases() if case in chosen and case not in missing]
         for case, reason in failed[:MOST_FAILURES]:
             yield f"{result.path}: case {case} has no result: {reason}".rstrip(": ")
         if len(failed) > MOST_FAILURES:

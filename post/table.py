@@ -21,7 +21,7 @@ import sys
 import numpy as np
 
 from command import run, whole_number
-from layout import TAKEN, chosen_cases, groups_over
+from layout import TAKEN, chosen_cases, groups_over, not_computed, not_computed_words
 from read import ResultError, read_result
 from units import factor, fitting_unit, number, with_unit
 
@@ -143,11 +143,12 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
 
 
 def left_out(result, groups, count, what) -> list[str]:
-    """Lines below the table: how many rows are left out, and which of the cases in those shown have no result."""
-    lines = []
+    """Lines below the table: how many cases a partial file does not have, how many rows are left out, and which of the cases in those
+    shown have no result."""
+    lines = [f'{not_computed_words(result)}: the file is partial.'] if not_computed(result) else []
     if count < len(groups):
         lines.append(f'{len(groups) - count} of {len(groups)} {what} are left out: --all prints them, --cases chooses.')
-    shown = {case for group in groups[:count] for case in group}
+    shown = {case for group in groups[:count] for case in group} - not_computed(result)
     failed = [(case, reason) for case, reason in result.failed_cases() if case in shown]
     lines += [f'Case {case} has no result: {reason}'.rstrip(': ') for case, reason in failed]
     return lines

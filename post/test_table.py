@@ -78,6 +78,18 @@ def test_failed_cases_have_dashes_and_a_reason(grid, capsys):
     assert "Case 2 has no result: no periodic state" in text
 
 
+def test_cases_that_were_not_computed_are_one_line(grid, capsys):
+    with h5py.File(grid, "a") as file:
+        file["summary/status"][3:] = -1
+        file["summary/status"][1] = 3
+        file["run/messages"] = np.array(["", "no periodic state"] + 58 * [""], dtype="S20")
+    for options in ([], ["--all"]):
+        assert main([str(grid), "--columns", "estimated_error", *options]) == 0
+        text = capsys.readouterr().out
+        assert "57 of 60 cases were not computed: the file is partial.\n" in text
+        assert [line for line in text.splitlines() if "no result" in line] == ["Case 1 has no result: no periodic state"]
+
+
 def test_a_film_that_is_not_there_is_no_thin_one(grid):
     with h5py.File(grid, "a") as file:
         for name, unit, value in (("min_film_thickness_min", "m", 2.5e-7), ("min_film_ratio", "1", 1.25)):
