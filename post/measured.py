@@ -99,9 +99,32 @@ def read_table(path):
     return Table(path, columns, units)
 
 
+def is_over_angle(table):
+    """Are the measured values over an angle?"""
+    return any(name in table.columns for name in ANGLES)
+
+
+def case_for(table, result, cases):
+    """The case that values over an angle are compared with: the first of the chosen ones that has series; ResultError where none has."""
+    there = result.cases_with_series() if is_over_angle(table) else cases
+    found = [case for case in cases if case in there]
+    if not found:
+        raise ResultError(f"{result.path}: no series of these cases in the file, which values over an angle are compared with")
+    return found[0]
+
+
+def case_words(table, result, case):
+    """Which of several cases values over an angle are compared with, behind the name of the result."""
+    if result.cases == 1 or not is_over_angle(table):
+        return ""
+    values = ", ".join(f"{key.rpartition('.')[2]}={value:.6g}" if isinstance(value, float) else f"{key.rpartition('.')[2]}={value}"
+                       for key, value in ((key, result.value_of(key, case)) for key in result.sweep))
+    return f", case {case}" + (f" ({values})" if values else "")
+
+
 def compare(table, result, case):
     """Measured values beside the computed ones of a result; of a case where they are over an angle."""
-    if any(name in table.columns for name in ANGLES):
+    if is_over_angle(table):
         return compare_angles(table, result, case)
     if set(POINT) <= set(table.columns):
         return compare_points(table, result)
@@ -175,7 +198,7 @@ def draw_comparison(table, result, case, comparison):
     """Figure with the computed curve or points and the measured ones."""
     figure = Figure(figsize=(7.5, 4.6), layout="constrained")
     axes = figure.subplots()
-    if any(name in table.columns for name in ANGLES):
+    if is_over_angle(table):
         angle_name = next(name for name in ANGLES if name in table.columns)
         torque_name = torque_of(table)
         series = "torque_friction" if "friction" in torque_name else "torque_drive"
@@ -195,7 +218,8 @@ def draw_comparison(table, result, case, comparison):
     axes.axhline(0.0, color="0.6", linewidth=0.7, zorder=0)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.legend(frameon=False)
-    axes.set_title(f"{result.title} and {table.path.name}\n{comparison.words()}", fontsize="medium", wrap=True)
+    axes.set_title(f"{result.title}{case_words(table, result, case)} and {table.path.name}\n{comparison.words()}", fontsize="medium",
+                   wrap=True)
     return figure
 
 

@@ -69,11 +69,12 @@ def draw_measured(result, options):
     if not cases:
         raise ResultError("no case is left to draw: see --cases")
     table = read_table(options.measured)
-    comparison = compare(table, result, cases[0])
+    case = case_for(table, result, cases)
+    comparison = compare(table, result, case)
     folder = Path(options.output) if options.output else result.path.parent
     target = folder / f"{result.path.stem}_measured.{options.format}"
-    save_figure(draw_comparison(table, result, cases[0], comparison), target, dpi=options.dpi, metadata=NO_DATE[options.format])
-    print(f"{table.path} less {result.path}: {comparison.words()}")
+    save_figure(draw_comparison(table, result, case, comparison), target, dpi=options.dpi, metadata=NO_DATE[options.format])
+    print(f"{table.path} less {result.path}{case_words(table, result, case)}: {comparison.words()}")
     print(f"measured: {target}")
     return 0
 
@@ -107,7 +108,7 @@ def parser():
     made.add_argument("--measured", metavar="TABLE.csv",
                       help="measured values with a heading as 'cam angle [deg], torque [N m]', 'crank angle [deg], torque [N m]' or "
                            "'speed [rpm], temperature [degC], mean torque [N mm]': drawn with the first file, over an angle with its "
-                           "first chosen case; prints bias, root mean square and the worst point of measured less computed")
+                           "first chosen case that has series; prints bias, root mean square and the worst point of measured less computed")
     made.add_argument("--dpi", type=DPI, default=130, help="pixels per inch of a PNG (default: 130)")
     made.add_argument("--angles", choices=["event", "cycle"],
                       help="cam angles of the single figures: around the valve event or the whole cycle "

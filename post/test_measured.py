@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from plot import main
-from measured import compare, read_table
+from measured import compare, draw_comparison, read_table
 from read import ResultError, read_result
 from test_post import write_result
 
@@ -34,6 +34,21 @@ def test_offset_over_the_cam_angle_is_the_bias(nine, tmp_path, capsys):
     assert f"{len(curve)} points, bias {offsets.mean():.2f} N mm, rms {np.sqrt((offsets ** 2).mean()):.2f} N mm" in words
     assert re.search(r"worst 9(\.00)? N mm at cam angle 100 deg", words)
     assert (tmp_path / "nine_measured.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_case_is_named_and_has_series(nine, tmp_path, capsys):
+    table = write_table(tmp_path / "rig.csv", "cam angle [deg], torque [N m]", [(180.0, 1.0), (100.0, 2.0)])
+    with h5py.File(nine, "a") as file:
+        for name in file["series"]:
+            if name != "cam_angle":
+                file[f"series/{name}"][:5] = np.nan
+    assert main([str(nine), "--measured", str(table)]) == 0
+    words = capsys.readouterr().out
+    assert "rig.csv less " in words and "nine.h5, case 5 (speed_rpm=600, oil_temperature_degC=95): 2 points, bias " in words
+    figure = draw_comparison(read_table(table), read_result(nine), 5, compare(read_table(table), read_result(nine), 5))
+    assert figure.axes[0].get_title().startswith("made up, case 5 (speed_rpm=600, oil_temperature_degC=95) and rig.csv\n")
+    assert main([str(nine), "--measured", str(table), "--cases", "0-4"]) == 2
+    assert "no series of these cases in the file" in capsys.readouterr().err
 
 
 def test_between_the_points_of_the_series_the_line_counts(nine, tmp_path):
