@@ -12,14 +12,14 @@ module camroller_deck_sweep
    use camroller_quotes, only : without_quotes
    use camroller_units, only : unit_name_length
    use camroller_number_text, only : append_number, integer_text
-   use camroller_text_list, only : text_list_t, text_at
+   use camroller_text_list, only : first_repeated, new_text_list, put_text_at, text_list_t, text_at
    use camroller_samples, only : sample_names, sample_sobol, sample_latin_hypercube, sample_independent
    use camroller_deck_matching, only : override_t
    implicit none
    private
 
    public :: sweep_t, sweep_axis_t, sweep_kind_names, scale_names, is_sample, most_cases
-   public :: axis_of, sweep_size, axis_size, sweep_position, sweep_overrides, get_sweep_value, get_values_beside
+   public :: axis_of, sweep_size, axis_size, repeated_value, sweep_position, sweep_overrides, get_sweep_value, get_values_beside
    public :: sweep_numbers, sweep_words
    public :: measured_numbers, measured_prefix, nothing_measured
    public :: case_in_words
@@ -32,6 +32,8 @@ module camroller_deck_sweep
    integer, parameter :: most_cases = 2000000000
    !> Digits of a value from a range: fewer than a number holds, so that text and number are the same
    integer, parameter :: value_digits = 15
+   !> Digits that tell any two numbers apart, and characters that take a number of so many
+   integer, parameter :: all_digits = 17, number_width = 32
 
    !> Beginning of the names of columns of measured values, and what stands where nothing was measured
    character(len=*), parameter :: measured_prefix = "measured.", nothing_measured = "-"
@@ -104,6 +106,44 @@ contains
       values = axis%count
       if (axis%values%count > 0) values = axis%values%count
    end function axis_size
+
+   !> The first value of a key that it has before; 0 where there is none. In a range of numbers that are not whole all differ where
+   !> two do.
+   pure function repeated_value(axis) result(position)
+      !> The key
+      type(sweep_axis_t), intent(in) :: axis
+      !> The value, from 1
+      integer :: position
+
+      ! Each number as text in the same way, names without quotes
+      type(text_list_t) :: values
+      character(len=:), allocatable :: text, before
+      real(wp) :: number ! [unit of the key]
+      integer :: i, status
+
+      if (axis%values%count == 0) then
+         before = ""
+         do position = 1, merge(axis%count, 2, axis%is_whole)
+            call range_value(axis, real(position - 1, wp)/real(axis%count - 1, wp), text)
+            if (text == before) return
+            before = text
+         end do
+         position = 0
+      else
+         call new_text_list(values, axis%values%count, max(axis%values%width, number_width))
+         do i = 1, values%count
+            text = without_quotes(text_at(axis%values, i))
+            status = 1
+            if (axis%is_numeric) read (text, *, iostat=status) number
+            if (status == 0) then
+               text = ""
+               call append_number(text, number, all_digits)
+            end if
+            call put_text_at(values, i, text)
+         end do
+         position = first_repeated(values)
+      end if
+   end function repeated_value
 
    !> Number of cases; 0 where there are too many.
    pure function sweep_size(sweep) result(cases)

@@ -14,9 +14,9 @@ module camroller_deck_sweep_read
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_matching, only : override_t, apply_override, find_override
    use camroller_deck_sweep, only : axis_of, axis_size, get_sweep_value, is_sample, measured_prefix, most_cases, &
-      & nothing_measured, sweep_axis_t, sweep_size, sweep_t
+      & nothing_measured, repeated_value, sweep_axis_t, sweep_size, sweep_t
    use camroller_key_uses, only : is_idle, say_idle
-   use camroller_text_list, only : new_text_list, put_text_at, text_at, first_repeated
+   use camroller_text_list, only : new_text_list, put_text_at, text_at
    use camroller_case_columns, only : column_t, column_reader_t
    use camroller_sweep_table, only : read_columns
    use camroller_text_file, only : join_path
@@ -256,16 +256,17 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       character(len=:), allocatable :: ends
-      logical :: has_list, has_range
+      logical :: has_list
+      logical, allocatable :: has_key(:)
 
       has_list = is_known(settings, "sweep", "values_"//digit)
-      has_range = is_known(settings, "sweep", "from_"//digit) .and. is_known(settings, "sweep", "to_"//digit)
+      has_key = [is_known(settings, "sweep", "from_"//digit), is_known(settings, "sweep", "to_"//digit)]
       ends = "'from_"//digit//"' and 'to_"//digit//"'"
       if (.not. is_sample(sweep)) then
-         has_range = has_range .and. is_known(settings, "sweep", "count_"//digit)
+         has_key = [has_key, is_known(settings, "sweep", "count_"//digit)]
          ends = "'from_"//digit//"', 'to_"//digit//"' and 'count_"//digit//"'"
       end if
-      has_values = has_list .neqv. has_range
+      has_values = merge(.not. any(has_key), all(has_key), has_list)
       if (.not. has_values) then
          if (any([is_wrong(settings, "sweep", "values_"//digit), is_wrong(settings, "sweep", "from_"//digit), &
             & is_wrong(settings, "sweep", "to_"//digit), is_wrong(settings, "sweep", "count_"//digit)])) return
@@ -348,7 +349,7 @@ contains
       end if
    end subroutine read_range
 
-   !> Is each value of the last key one that the key takes, and in a list there once? Of a range the ends are tried.
+   !> Is each value of the last key one that the key takes, and in a grid there once? Of a range the ends are tried.
    subroutine try_values(schema, settings, sweep, place, mistakes, path, lines)
       !> The schema
       type(schema_t), intent(in) :: schema
@@ -393,10 +394,11 @@ contains
          end if
          found = mistakes_t()
       end do
-      if (sweep%kind /= "grid" .or. alone%axes(1)%values%count == 0) return
-      i = first_repeated(alone%axes(1)%values)
-      if (i > 0) call complain(mistakes, settings, "sweep", place, "value "//text_at(alone%axes(1)%values, i)//" of "// &
-         & alone%axes(1)%key//" is there twice")
+      if (sweep%kind /= "grid") return
+      i = repeated_value(alone%axes(1))
+      if (i == 0) return
+      call get_sweep_value(alone, 1, i, value)
+      call complain(mistakes, settings, "sweep", place, "value "//value//" of "//alone%axes(1)%key//" is there twice")
    end subroutine try_values
 
    !> Keys and values from a table of cases.
@@ -425,10 +427,14 @@ contains
          call complain(mistakes, settings, "sweep", "kind", "kind = 'table' needs 'table'")
          return
       end if
-      if (is_known(settings, "sweep", "key_1")) then
-         call complain(mistakes, settings, "sweep", "key_1", "the table names the keys")
+      do i = 1, sweep_key_count
+         if (.not. is_known(settings, "sweep", "key_"//integer_text(i))) then
+            call refuse_values_without_key(settings, integer_text(i), mistakes)
+            cycle
+         end if
+         call complain(mistakes, settings, "sweep", "key_"//integer_text(i), "the table names the keys")
          return
-      end if
+      end do
       path = join_path(folder, get_word(settings, "sweep", "table"))
       call read_columns(path, columns, mistakes, error, reader)
       if (allocated(error)) then

@@ -31,7 +31,7 @@ module camroller_key_uses
    character(len=*), parameter :: angle_laws = "power polydyne polynomial_345 polynomial_4567 cycloidal", &
       & density_laws = "walther data_sheet", point_laws = "vogel walther", summit_laws = "greenwood_tripp zhao_maietta_chang"
 
-   !> The second lift is like the first
+   !> The second lift is like the first, and `#` is the number of a key of &sweep
    type(key_use_t), parameter :: uses(*) = [ &
       key_use_t("lift.max_lift_mm", "law", angle_laws//" segments"), &
       key_use_t("lift.opening_half_angle_deg", "law", angle_laws), &
@@ -105,6 +105,9 @@ module camroller_key_uses
       key_use_t("effects.quantity", "select", "needed"), &
       key_use_t("numerics.step_deg", "method", "euler"), &
       key_use_t("numerics.periodicity", "tolerance", given), &
+      key_use_t("sweep.seed", "kind", "latin_hypercube sobol random"), &
+      key_use_t("sweep.count_#", "kind", "grid zip"), &
+      key_use_t("sweep.scale_#", "from_#", given), &
       key_use_t("sweep.series_cases", "series", "chosen")]
 
 contains
@@ -147,7 +150,7 @@ contains
          if (uses(i)%key /= table_name(key)) cycle
          if (words /= "") words = words//", or "
          if (uses(i)%values == given) then
-            words = words//"with "//trim(uses(i)%choice)
+            words = words//"with "//numbered(uses(i)%choice, key)
          else if (uses(i)%values == not_given) then
             words = words//"without "//trim(uses(i)%choice)
          else
@@ -232,11 +235,24 @@ contains
       !> The choice
       character(len=2*key_length) :: choice
 
-      choice = use%choice
-      if (scan(choice, ".&") == 0) choice = key(:index(key, "."))//use%choice
+      choice = numbered(use%choice, key)
+      if (scan(choice, ".&") == 0) choice = key(:index(key, "."))//choice
    end function choice_of
 
-   !> Name of a key in the table: the second lift is like the first.
+   !> Name of a choice, with the number of its key.
+   pure function numbered(choice, key) result(name)
+      !> As in the table
+      character(len=*), intent(in) :: choice
+      !> As `group.key`
+      character(len=*), intent(in) :: key
+      !> The name
+      character(len=len_trim(choice)) :: name
+
+      name = choice
+      if (index(name, "#") > 0) name(index(name, "#"):) = key(len_trim(key):)
+   end function numbered
+
+   !> Name of a key in the table.
    pure function table_name(key) result(name)
       !> As `group.key`
       character(len=*), intent(in) :: key
@@ -245,6 +261,7 @@ contains
 
       name = key
       if (index(key, "second_lift.") == 1) name = key(len("second_") + 1:)
+      if (index(key, "sweep.") == 1 .and. scan(key(len_trim(key):), "123456789") == 1) name(len_trim(key):) = "#"
    end function table_name
 
    !> Add words of a list as `'power' or 'polydyne'`.

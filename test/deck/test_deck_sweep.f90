@@ -132,6 +132,14 @@ contains
       call expect_mistake(error, "", speed//"values_1 = 1, -2 /", &
          & "11:55: value 2 of operating_point.speed_rpm: 'speed_rpm' must be above 0, not -2")
       call expect_mistake(error, "", speed//"values_1 = 1, 2, 1 /", "11:55: value 1 of operating_point.speed_rpm is there twice")
+      call expect_mistake(error, "", speed//"values_1 = 600, 6e2 /", "11:55: value 6e2 of operating_point.speed_rpm is there twice")
+      call expect_mistake(error, "", speed//"from_1 = 6e2 to_1 = 600 count_1 = 3 /", &
+         & "11:53: value 600 of operating_point.speed_rpm is there twice")
+      call expect_mistake(error, "", "&sweep key_1 = 'numerics.max_cycles' from_1 = 2 to_1 = 4 count_1 = 9 "// &
+         & "scale_1 = 'logarithmic' /", "11:47: value 2 of numerics.max_cycles is there twice")
+      call expect_mistake(error, "", "&sweep key_1 = 'film.law' values_1 = 'moes', moes /", &
+         & "11:38: value moes of film.law is there twice")
+      call expect_mistake(error, "", speed//"values_1 = 1, 2 count_1 = 5 /", "11:16: 'key_1' needs either")
       call expect_mistake(error, "", speed//"from_1 = 1 to_1 = 2 count_1 = 1 /", "11:74: 'count_1' must be from 2 to 1000000")
       call expect_mistake(error, "", speed//"values_1 = 1 key_2 = 'operating_point.speed_rpm' values_2 = 2 /", &
          & "11:65: 'operating_point.speed_rpm' is swept twice")

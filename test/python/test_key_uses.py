@@ -40,6 +40,7 @@ VALUES = {
     "effects.negligible": "0.05", "effects.quantity": "minimum_film",
     "mechanism.adjuster_tilt_deg": "5",
     "numerics.step_deg": "0.05", "numerics.periodicity": "0.5", "sweep.series_cases": None,
+    "sweep.seed": None, **{f"sweep.{key}_{number}": None for key in ("count", "scale") for number in range(1, 9)},
 }
 
 STRIBECK = """   law = 'stribeck' friction_coefficient = 0.1 decay_speed_m_s = 0.3 viscous_part_s_m = 0.01
@@ -191,6 +192,23 @@ def test_a_default_of_an_idle_key_needs_no_remark(camroller):
     def remarks(value):
         return run(camroller, ROOT / "decks/thesis.nml", "check", value)
     assert "no effect" not in remarks("numerics.step_deg=1.0") and "numerics.step_deg = 2 has no effect" in remarks("numerics.step_deg=2")
+
+
+@pytest.mark.parametrize(("sweep", "words"), [
+    ("kind = 'sobol' cases = 4 key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 900 count_1 = 5",
+     "sweep.count_1 = 5 has no effect: it is used with kind = 'grid' or 'zip'; kind is 'sobol'"),
+    ("key_1 = 'film.law' values_1 = 'moes' key_2 = 'operating_point.speed_rpm' values_2 = 300, 900 scale_2 = 'logarithmic'",
+     "sweep.scale_2 = 'logarithmic' has no effect: it is used with from_2"),
+    ("key_1 = 'operating_point.speed_rpm' values_1 = 300, 900 seed = 7",
+     "sweep.seed = 7 has no effect: it is used with kind = 'latin_hypercube', 'sobol' or 'random'; kind is 'grid'"),
+    ("kind = 'random' seed = 7 cases = 4 key_3 = 'operating_point.speed_rpm' from_3 = 300 to_3 = 900 scale_3 = 'logarithmic'", None),
+    ("key_8 = 'operating_point.speed_rpm' from_8 = 300 to_8 = 900 count_8 = 3 scale_8 = 'logarithmic'", None),
+])
+def test_a_key_of_a_sweep_without_effect_has_a_remark(camroller, tmp_path, sweep, words):
+    text = (ROOT / "decks/thesis.nml").read_text()
+    (tmp_path / "deck.nml").write_text(f"{text[:text.index('&sweep')]}&sweep {sweep} /\n")
+    done = subprocess.run([camroller, "check", "deck.nml"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert [line for line in done.stderr.splitlines() if "no effect" in line] == ([f"remark: {words}"] if words else [])
 
 
 @pytest.mark.parametrize(("values", "message"), [

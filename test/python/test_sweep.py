@@ -395,6 +395,8 @@ def test_a_result_is_a_table_of_its_cases(camroller, deck, reference, tmp_path):
     ("kind = 'table' table = 'none.csv'", "there is no file"),
     ("kind = 'table' table = 'bad.csv'", "bad.csv:3: this row has 1 column, the heading has 2"),
     ("kind = 'table' table = 'wrong.csv'", "unknown key 'speed'"),
+    ("kind = 'table' table = 'bad.csv' key_2 = 'roller.radius_mm' values_2 = 8, 9", "the table names the keys"),
+    ("kind = 'table' table = 'bad.csv' values_2 = 8, 9", "there is no 'key_2' for it"),
     ("kind = 'grid' cases = 3 key_1 = 'operating_point.speed_rpm' values_1 = 1, 2", "'cases' is for samples"),
     ("key_1 = 'film.law' from_1 = 1 to_1 = 2 count_1 = 2", "takes names, which have no range"),
     ("key_1 = 'numerics.max_cycles' from_1 = 1 to_1 = 4 count_1 = 3", "takes whole numbers"),
