@@ -71,7 +71,7 @@ contains
       !> File error where it is no result file
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: format, digest, builds
+      character(len=:), allocatable :: format, digest, builds, values
 
       call read_text_attribute(file, "/", "format", format, error)
       if (.not. allocated(error)) call read_text_attribute(file, "/run", "study", digest, error)
@@ -84,6 +84,9 @@ contains
          earlier%reason = "another build made it"//builds
       else
          earlier%reason = "its deck, a table or a value of --set differs"
+         if (.not. has_member(file, "/run/study_values")) return
+         call read_text(file, "/run/study_values", [integer ::], values, error)
+         if (.not. allocated(error)) earlier%reason = earlier%reason//": "//difference(values, facts%deck)
       end if
    end subroutine compare_study
 
@@ -103,11 +106,11 @@ contains
       character(len=:), allocatable :: message
       integer :: failed, first
 
+      earlier%reason = "it holds the solved contacts of 'camroller ehl'"
+      if (holds_contacts_alone(file)) return
       earlier%reason = "it has no status of each case"
       if (.not. has_member(file, "/summary")) return
       if (.not. has_member(file, "/summary/status")) return
-      earlier%reason = "it holds the solved contacts of 'camroller ehl'"
-      if (holds_contacts_alone(file)) return
       call read_extents(file, "/summary/status", 1, extents, error)
       if (allocated(error)) return
       if (extents(1) /= cases) return

@@ -192,7 +192,7 @@ contains
       values(6) = utc_date()
       values(7) = command
       values(8) = study_digest(facts)
-      call write_run(writer, names, values, error)
+      call write_run(writer, names, values, facts%deck, error)
    end subroutine write_build
 
    !> What part files must agree on with a sweep: every value, a checksum of every table, the build. Where the deck and its tables

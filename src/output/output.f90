@@ -11,7 +11,8 @@
 !> all of them, `/deck/table_<group>` (column, row) the tables that it names, `/deck/table_<group>_<number>` those that its cases
 !> name beside them, counted by the attribute `tables_<group>` of `/deck`; `/sweep/<group.key>` (case) are the keys that vary;
 !> `/effects/<name>` (case) and `/effects/reasons` (case) tell which effects took part, where the deck leaves that to the program;
-!> `/run` has attributes, and `/run/warnings` (case) where there are warnings.
+!> `/run` has attributes, `/run/study_values`, by which one study is told from another, and `/run/warnings` (case) where there are
+!> warnings.
 !> The root has `format`, `format_version`, `axes` and `complete`, which is set last: 1, or 0 in a partial file, which has
 !> `missing_cases` too.
 !>

@@ -133,21 +133,27 @@ contains
    end subroutine write_table_count
 
    !> Store facts of the run (program, version, commit, compiler, options, date, command ...) as attributes of `/run`.
-   subroutine write_run(writer, names, values, error)
+   subroutine write_run(writer, names, values, study, error)
       !> The writer
       type(output_t), intent(inout) :: writer
       !> Names of the facts
       character(len=*), intent(in) :: names(:)
       !> What they are
       character(len=*), intent(in) :: values(:)
+      !> What the cases follow from, a line for each value
+      character(len=*), intent(in) :: study
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_object_t) :: dataset
       integer :: i
 
       call check_open(writer, error)
       if (allocated(error)) return
-      call reserve_file(writer%file, size(names)*(object_size + len(values)), error)
+      call reserve_file(writer%file, size(names)*(object_size + len(values)) + object_size + len(study), error)
+      if (.not. allocated(error)) call create_texts(writer%run, "study_values", [integer ::], dataset, error)
+      if (.not. allocated(error)) call write_text(dataset, [integer ::], study, error)
+      call close_object(dataset)
       do i = 1, size(names)
          if (allocated(error)) exit
          call put_attribute(writer%run, trim(names(i)), values(i), error)

@@ -16,7 +16,7 @@ module camroller_part_scan
    private
 
    public :: study_facts_t, entry_t, index_t, kind_head, kind_layout, kind_cases, mark, head_words, longest_record
-   public :: scan_file
+   public :: scan_file, difference
 
    !> Kinds of records
    integer, parameter :: kind_head = 1, kind_layout = 2, kind_cases = 3

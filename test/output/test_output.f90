@@ -64,7 +64,8 @@ contains
          & [character(len=7) :: "given", "default", "given"], raised)
       call write_sweep(writer, "operating_point.speed_rpm", "rev/min", [300.0_wp, 600.0_wp, 900.0_wp], raised)
       call write_sweep(writer, "film.law", "", [character(len=7) :: "moes", "martin", "another"], raised)
-      call write_run(writer, [character(len=8) :: "program", "version"], [character(len=9) :: "camroller", "1"], raised)
+      call write_run(writer, [character(len=8) :: "program", "version"], [character(len=9) :: "camroller", "1"], "", &
+         & raised)
       call write_samples(writer, 3, 8, raised)
       call close_output(writer, raised)
       call check(error, .not. allocated(raised), "cannot write")

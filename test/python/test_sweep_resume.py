@@ -125,8 +125,8 @@ def test_resume_of_a_finished_sweep_repeats_its_exit_code(camroller, tmp_path, v
 
 
 @pytest.mark.parametrize("change, words", [
-    ("roller.mass_kg=0.012", "its deck, a table or a value of --set differs"),
-    ("sweep.count_1=7", "its deck, a table or a value of --set differs"),
+    ("roller.mass_kg=0.012", "its deck, a table or a value of --set differs: 'roller.mass_kg = 0.0088' is now 'roller.mass_kg = 0.012'\n"),
+    ("sweep.count_1=7", "its deck, a table or a value of --set differs: 'sweep.count_1 = 6' is now 'sweep.count_1 = 7'\n"),
     ("build", "commit: 'another' made the file, this is '"),
 ])
 def test_resume_does_not_replace_a_result_of_another_study(camroller, deck, reference, tmp_path, change, words):
@@ -206,7 +206,7 @@ def test_a_table_that_changed_is_refused(camroller, tables, deck, group):
     table.write_text(changed(before))
     finished = run(camroller, *study, "--resume", folder=tables)
     assert finished.returncode == FILE
-    assert "its deck, a table or a value of --set differs" in finished.stderr
+    assert f"its deck, a table or a value of --set differs: 'table of &{group} with checksum " in finished.stderr
 
 
 def table_of(deck, group):
