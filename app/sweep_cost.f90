@@ -11,6 +11,7 @@ module camroller_sweep_cost
    use camroller_case_loop, only : number_of_cores
    use camroller_case_record, only : case_words
    use camroller_deck, only : deck_t, make_sweep_case
+   use camroller_deck_document, only : echo_t, get_echo
    use camroller_deck_sweep, only : sweep_size
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
@@ -31,6 +32,8 @@ module camroller_sweep_cost
    real(wp), parameter :: longest_trial = 1.0_wp
    !> Number, megabyte, and what each thread keeps of cases that it has not handed over yet [byte]
    real(wp), parameter :: number_size = 8.0_wp, megabyte = 1.0e6_wp, thread_size = 8.0e6_wp
+   !> What a key of the deck, a scalar or a series takes in a result file besides its numbers [byte]
+   real(wp), parameter :: entry_size = 740.0_wp
 
    !> Mean cost of a case
    type :: cost_t
@@ -42,6 +45,8 @@ module camroller_sweep_cost
       logical :: is_estimated = .false.
       !> Numbers of a case with and without series and profiles
       integer :: words_with_series = 0, words = 0
+      !> Scalars and series
+      integer :: scalars = 0, series = 0
       !> Remarks of a case, in the mean [byte]
       real(wp) :: remarks = 0.0_wp
    end type cost_t
@@ -59,8 +64,9 @@ contains
       character(len=:), allocatable :: series
       integer, allocatable :: chosen(:)
       integer :: cases, cores
-      ! Of the sweep, with the series of every case [byte]
-      real(wp) :: space, space_with_series
+      type(echo_t) :: echo
+      ! Of the sweep, with the series of every case; what a file of either has whatever the number of cases [byte]
+      real(wp) :: space, space_with_series, fixed, fixed_with_series
 
       series = get_word(deck%settings, "sweep", "series")
       call try_cases(deck, series == "all" .or. series == "chosen", cost)
@@ -79,10 +85,15 @@ contains
          call take(deck%settings, "sweep", "series_cases", chosen)
          space = space + number_size*real(cost%words_with_series - cost%words, wp)*size(chosen)
       end if
+      call get_echo(deck, echo)
+      fixed = entry_size*(size(echo%keys) + cost%scalars) + len(deck%text)
+      fixed_with_series = fixed + entry_size*cost%series
+      if (series == "all" .or. series == "chosen") fixed = fixed_with_series
       text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on disk about "// &
-         & megabytes(space)//" in parts while it runs, and as much again for the result file at the end"//new_line("a")
-      text = text//"! 'camroller run' writes about "//megabytes(space_with_series)// &
-         & " with the series of every case, 'camroller sweep' about "//megabytes(space)//new_line("a")
+         & megabytes(space)//" in parts while it runs, and "//megabytes(space + fixed)//" more for the result file at the end"// &
+         & new_line("a")
+      text = text//"! 'camroller run' writes about "//megabytes(space_with_series + fixed_with_series)// &
+         & " with the series of every case, 'camroller sweep' about "//megabytes(space + fixed)//new_line("a")
    end subroutine cost_in_words
 
    !> The n-th case of the sample that stands for all.
@@ -136,6 +147,8 @@ contains
          else
             cost%words = case_words(result, .false.)
             cost%words_with_series = case_words(result, .true., profiles)
+            cost%scalars = size(result%summary)
+            cost%series = size(result%series)
             cost%remarks = cost%remarks + len(remark_lines(result%remarks))
          end if
          call cpu_time(now)
