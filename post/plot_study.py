@@ -17,6 +17,7 @@ matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False})
 
 from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
 import numpy as np  # noqa: E402
 
 from command import run, save_figure  # noqa: E402
@@ -72,11 +73,21 @@ def work_precision(table):
             axes.plot(factor * points[:, column], points[:, 0], color=COLOURS[number % len(COLOURS)], label=way, linewidth=1.2,
                       marker=MARKERS[number % len(MARKERS)], markersize=4)
         axes.set(xscale="log", yscale="log", xlabel=words, ylabel=ERRORS[error])
+        _label_few_decades(axes)
         axes.grid(True, which="major", linewidth=0.3)
     grid[-1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     cases = len(np.unique(table["case"][table["status"] == 0]))
     figure.suptitle("one case" if cases == 1 else f"geometric means over {cases} cases", fontsize="medium")
     return figure
+
+
+def _label_few_decades(axes):
+    """Plain numbers at 1, 2 and 5 along the lower axis, where powers of ten would be one or two."""
+    low, high = axes.get_xlim()
+    if high < 100.0 * low:
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def drawn(table, path):

@@ -48,6 +48,16 @@ def test_films_without_evaluations_have_no_panel_of_them(path):
     assert len(work_precision(table).axes) == 2
 
 
+def test_an_axis_of_few_decades_has_plain_numbers_that_do_not_overlap(path):
+    figure = work_precision(read_study(path))
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        labels = [label for label in axes.get_xticklabels(which="both") if label.get_text()]
+        boxes = sorted((box.x0, box.x1) for box in (label.get_window_extent() for label in labels))
+        assert len(labels) >= 2 and not any("$" in label.get_text() for label in labels)
+        assert all(left[1] < right[0] for left, right in zip(boxes, boxes[1:])), [label.get_text() for label in labels]
+
+
 def test_a_file_that_is_no_study_is_refused(tmp_path, capsys):
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = 1
