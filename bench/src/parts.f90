@@ -55,7 +55,7 @@ contains
       real(wp), allocatable :: stops(:)
       integer :: round
 
-      call new_own(own, chosen, 1, 0, error)
+      call new_own(own, chosen, 1, error)
       if (allocated(error)) return
       allocate (output(1, size(task%angles)))
       do round = 1, rounds

@@ -20,7 +20,8 @@ module bench_tasks
    use camroller_ode_problem, only : problem_t
    use bench_own, only : own_t, new_own, run_own
    use bench_cvode, only : cvode_t, new_cvode, run_cvode, free_cvode
-   use bench_roller_problem, only : roller_problem_t, new_roller_problem, roller_stops, pure_rolling_spin, sliding_speed_at
+   use bench_roller_problem, only : roller_problem_t, new_roller_problem, roller_stops, pure_rolling_spin, &
+      & sliding_speed_at, loss_rate_at
    implicit none
    private
 
@@ -44,7 +45,7 @@ module bench_tasks
       real(wp), allocatable :: first_state(:), scale(:)
       !> Sliding speed [m/s], of a train the contact load [N], at the output angles
       real(wp), allocatable :: sliding_speed(:)
-      !> Mean torque of all losses [N m]; roller problem: loss [J]; train: mean of the load [N]
+      !> Mean torque of all losses [N m]; train: mean of the load [N]
       real(wp) :: loss = 0.0_wp
       !> Processor time of a run beyond which a solver gets no tighter tolerance [s]
       real(wp) :: patience = 0.02_wp
@@ -147,7 +148,7 @@ contains
       real(wp), allocatable :: state(:)
 
       allocate (task%model, problem)
-      call new_model(task%model, case, case%lift, error)
+      call new_model(task%model, case, 1, error)
       if (.not. allocated(error)) call start_turns(turn, task%model, reference_method, tolerance, error)
       if (.not. allocated(error)) call rest_of_train(task%model, state, error)
       if (.not. allocated(error)) call find_periodic(cycle, turn, state, closure, 40, error)
@@ -206,7 +207,7 @@ contains
       type(numerics_t) :: numerics
 
       allocate (task%model, problem)
-      call new_model(task%model, case, case%lift, error)
+      call new_model(task%model, case, 1, error)
       if (allocated(error)) return
       numerics%method = reference_method
       numerics%tolerance = start_tolerance
@@ -240,12 +241,12 @@ contains
       task%name = "roller_"//achar(iachar("a") + number - 1)
       task%model => model
       task%stops = roller_stops()
-      task%first_state = [pure_rolling_spin(problem, -pi), 0.0_wp]
-      task%scale = [1.0_wp, 0.1_wp]
+      task%first_state = [pure_rolling_spin(problem, -pi)]
+      task%scale = [1.0_wp]
       task%problem => problem
       call add_reference(task, 2, error)
       if (allocated(error)) return
-      task%scale = [maxval(abs(task%sliding_speed))/model%roller_radius, task%loss]
+      task%scale = [maxval(abs(task%sliding_speed))/model%roller_radius]
       call add_reference(task, 2, error)
    end subroutine add_roller_problem
 
@@ -275,7 +276,7 @@ contains
       tolerance = merge(reference_tolerance, spin_tolerance, turns == 1)
       if (allocated(task%model%flexible)) tolerance = train_tolerance
       call set_accuracy(task, 0.0_wp)
-      call new_own(solver, reference_method, size(task%first_state), task%problem%integrals, error)
+      call new_own(solver, reference_method, size(task%first_state), error)
       if (allocated(error)) return
       call run_own(solver, task%problem, task%stops, task%first_state, tolerance*task%scale, task%angles, states, error)
       if (allocated(error)) return
@@ -343,13 +344,13 @@ contains
       end select
    end function sliding_speeds
 
-   !> Mean torque of the losses over the output angles [N m]; roller problem: loss at the end [J].
+   !> Mean torque of the losses over the output angles [N m].
    function loss_of(task, states) result(loss)
       !> Task
       type(task_t), intent(in) :: task
       !> State at the output angles [state]
       real(wp), intent(in) :: states(:, :)
-      !> Mean torque [N m] or loss [J], of a train the mean load [N]
+      !> Mean torque [N m], of a train the mean load [N]
       real(wp) :: loss
 
       type(state_t) :: state
@@ -359,14 +360,15 @@ contains
          loss = sum(sliding_speeds(task, states))/size(states, 2)
          return
       end if
-      if (size(states, 1) > 1) then
-         loss = states(2, size(states, 2))
-         return
-      end if
       loss = 0.0_wp
       do i = 1, size(states, 2)
-         call evaluate_state(task%model, task%angles(i), states(1, i), state, status)
-         loss = loss + state%torque_friction/size(states, 2)
+         select type (problem => task%problem)
+         type is (roller_problem_t)
+            loss = loss + loss_rate_at(problem, task%angles(i), states(1, i))/size(states, 2)
+         class default
+            call evaluate_state(task%model, task%angles(i), states(1, i), state, status)
+            loss = loss + state%torque_friction/size(states, 2)
+         end select
       end do
    end function loss_of
 
