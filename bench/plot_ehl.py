@@ -14,8 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 WORDS = {
-    "cold": "steady, from nothing",
-    "warm": "steady, load and speed changed by 1 %",
+    "steady": "steady contact",
     "cycle_300_60": "coupled cycle, 300 rev/min, 60 degC",
     "cycle_300_25": "coupled cycle, 300 rev/min, 25 degC",
 }
@@ -47,8 +46,8 @@ def draw(rows: dict[str, list[list[float]]], path: str, setting: str) -> None:
         time.loglog(nodes, [line[1] for line in lines], "o-", label=WORDS.get(name, name))
         part.semilogx(nodes, [line[2] for line in lines], "o-")
         part.semilogx(nodes, [sum(line[2:5]) for line in lines], "--", color=part.lines[-1].get_color())
-    first = rows["cold"][0]
-    nodes = [line[0] for line in rows["cold"]]
+    first = rows["steady"][0]
+    nodes = [line[0] for line in rows["steady"]]
     for power in (2, 3):
         time.loglog(nodes, [first[1] * 0.4 * (n / first[0]) ** power for n in nodes], ":", color="grey")
         time.text(nodes[-1], first[1] * 0.4 * (nodes[-1] / first[0]) ** power, f" n^{power}", color="grey", fontsize=9)

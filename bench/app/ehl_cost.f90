@@ -1,7 +1,7 @@
 !> How the cost of the numerical film grows with the number of nodes, and how much of it LAPACK takes.
 !>
 !> Usage: OPENBLAS_NUM_THREADS=1 ehl_cost DECKS       lines of a table on the output; DECKS is the folder of the decks
-!> Steady contacts from nothing and from one nearby, and whole coupled cycles. Medians of repeated runs, least of few for cycles.
+!> Steady contacts and whole coupled cycles. Medians of repeated runs, least of few for cycles.
 program ehl_cost
    implicit none
 
@@ -15,8 +15,8 @@ contains
       use camroller_kinds, only : wp
       use bench_circumstances, only : print_circumstances
 
-      integer, parameter :: sizes(5) = [65, 129, 257, 513, 1025], tasks = 4
-      character(len=12), parameter :: names(tasks) = [character(len=12) :: "cold", "warm", "cycle_300_60", "cycle_300_25"]
+      integer, parameter :: sizes(5) = [65, 129, 257, 513, 1025], tasks = 3
+      character(len=12), parameter :: names(tasks) = [character(len=12) :: "steady", "cycle_300_60", "cycle_300_25"]
       ! Seconds, and LAPACK's part of them: factors, solutions, products [-]
       real(wp) :: seconds(size(sizes), tasks), parts(3, size(sizes), tasks)
       ! Steps of a cycle or iterations of a solution; factorisations
@@ -26,17 +26,17 @@ contains
       call get_environment_variable("OPENBLAS_NUM_THREADS", threads)
       call print_circumstances("Cost of the numerical film over the number of nodes")
       write (output_unit, "(3a)") "# LAPACK:   OpenBLAS, OPENBLAS_NUM_THREADS=", trim(threads)
-      write (output_unit, "(a)") "# cold: a steady contact from nothing on nested grids; warm: load and speed changed by 1 %; "// &
-         & "both: geometric mean of LC1 and LC2", "# cycle: the coupled cycle of decks/thesis.nml at rev/min and degC", &
+      write (output_unit, "(a)") "# steady: a contact from nothing on nested grids, geometric mean of LC1 and LC2", &
+         & "# cycle: the coupled cycle of decks/thesis.nml at rev/min and degC", &
          & "# factors, solve, products: part of the time in dgetrf, dgetrs, dgemv; count: iterations, or steps of a cycle"
       write (output_unit, "(a12, a8, a14, 3a13, a8, a12)") "# task", "nodes", "time [ms]", "factors [%]", "solve [%]", &
          & "products [%]", "count", "factorised"
       do task = 1, tasks
          do i = 1, size(sizes)
-            if (task <= 2) then
-               call measure_steady(sizes(i), task == 2, seconds(i, task), parts(:, i, task), counts(:, i, task))
+            if (task == 1) then
+               call measure_steady(sizes(i), seconds(i, task), parts(:, i, task), counts(:, i, task))
             else
-               call measure_cycle(sizes(i), merge(2, 1, task == 3), seconds(i, task), parts(:, i, task), counts(:, i, task))
+               call measure_cycle(sizes(i), merge(2, 1, task == 2), seconds(i, task), parts(:, i, task), counts(:, i, task))
             end if
             write (output_unit, "(a12, i8, f14.3, 3f13.1, i8, i12)") names(task), sizes(i), 1.0e3_wp*seconds(i, task), &
                & 100.0_wp*parts(:, i, task), counts(:, i, task)
@@ -52,20 +52,18 @@ contains
       end do
    end subroutine main
 
-   !> Both steady contacts from nothing, or followed.
-   subroutine measure_steady(nodes, is_followed, seconds, parts, counts)
+   !> Both steady contacts from nothing.
+   subroutine measure_steady(nodes, seconds, parts, counts)
       use camroller_kinds, only : wp
       use camroller_error, only : error_t
       use camroller_ehl_problem, only : ehl_contact_t
-      use camroller_ehl_solution, only : ehl_options_t, ehl_track_t, solve_contact_film, follow_contact
+      use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
       use camroller_ehl_films, only : ehl_films_t
       use bench_clock, only : seconds_used, median
       use bench_contacts, only : contact_of_kind
       use bench_lapack_clock, only : lapack_t, start_lapack_clock, read_lapack_clock
       !> Nodes
       integer, intent(in) :: nodes
-      !> Followed?
-      logical, intent(in) :: is_followed
       !> Time [s], LAPACK's part [-]
       real(wp), intent(out) :: seconds, parts(3)
       !> Iterations, factorisations of the last solution of both contacts
@@ -74,13 +72,11 @@ contains
       integer, parameter :: repeats = 21
       type(ehl_contact_t) :: contact
       type(ehl_options_t) :: options
-      type(ehl_track_t) :: track
       type(ehl_films_t) :: films
       type(error_t), allocatable :: error
       type(lapack_t) :: lapack
       real(wp) :: times(repeats), start, all_time
-      integer :: kind, i, status
-      logical :: converged
+      integer :: kind, i
 
       options%nodes = nodes
       seconds = 1.0_wp
@@ -88,20 +84,11 @@ contains
       counts = 0
       do kind = 1, 2
          contact = contact_of_kind(kind)
-         track%is_started = .false.
-         if (is_followed) call follow_contact(contact, options, track, films, status, converged)
          call start_lapack_clock()
          do i = 1, repeats
             start = seconds_used()
-            if (is_followed) then
-               contact%line_load = contact%line_load*1.01_wp**(1 - 2*mod(i, 2))
-               contact%entrainment_speed = contact%entrainment_speed*1.01_wp**(1 - 2*mod(i, 2))
-               call follow_contact(contact, options, track, films, status, converged)
-               if (.not. converged) error stop 1
-            else
-               call solve_contact_film(contact, options, films, error)
-               if (allocated(error)) error stop 1
-            end if
+            call solve_contact_film(contact, options, films, error)
+            if (allocated(error)) error stop 1
             times(i) = seconds_used() - start
          end do
          lapack = read_lapack_clock()

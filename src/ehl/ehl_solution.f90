@@ -1,4 +1,4 @@
-!> Solution of a line contact, from default initial values or from a solution nearby, on two grids, with film and friction.
+!> Solution of a line contact from default initial values, on two grids, with film and friction.
 !>
 !> In: contact, number of nodes. Out: films, friction, and the difference of the two grids; or a status. Initial values are the
 !> pressure of a dry elastic contact or of a rigid one, according to the expected film; where Newton's method does not converge
@@ -18,7 +18,6 @@ module camroller_ehl_solution
    private
 
    public :: ehl_films_t, ehl_options_t, solve_contact_film, solve_cold, solve_on_grid, solve_on_grids, make_grid
-   public :: ehl_track_t, follow_contact
 
    !> What may be chosen; nothing here decides whether a solution is found
    type :: ehl_options_t
@@ -37,25 +36,13 @@ module camroller_ehl_solution
       logical :: is_uniform = .false.
    end type ehl_options_t
 
-   !> A contact that is followed while it changes: both grids with their last solutions
-   type :: ehl_track_t
-      !> Is there a solution?
-      logical :: is_started = .false.
-      !> Expected film for which the grids were made; error of the coarser one then [-]
-      real(wp) :: expected_film, coarse_error = 0.0_wp
-      type(ehl_grid_t) :: grids(2)
-      type(ehl_state_t) :: states(2)
-   end type ehl_track_t
-
-   !> Factor by which the expected film may leave that of the grids [-]
-   real(wp), parameter :: largest_drift = 1.5_wp
    !> Film over b^2/R below which the dry contact's pressure is the better start [-]
    real(wp), parameter :: elastic_film = 0.3_wp
    !> Inlet that starves the contact by less than 0.1 %: least [half widths], and over the length in which a parabola's gap doubles
    !> [-]
    real(wp), parameter :: least_inlet = 16.0_wp, inlet_part = 24.0_wp
-   !> Iterations from nothing, and from a solution nearby, before another way is tried
-   integer, parameter :: cold_iterations = 20, step_iterations = 30, refining_iterations = 15
+   !> Iterations from nothing, and from a coarser grid, before another way is tried
+   integer, parameter :: cold_iterations = 20, refining_iterations = 15
    !> Nodes of the coarsest grid
    integer, parameter :: smallest_grid = 33
    !> Nodes from which on the stated error says enough to stop at
@@ -99,78 +86,6 @@ contains
       call raise(error, kind_convergence, "ehl: film on two grids differs by "//fixed_text(100.0_wp*films%difference, 1)// &
          & " %; more nodes are needed")
    end subroutine solve_contact_film
-
-   !> Film and friction of a contact near the one before, on the same two grids where they still suit it.
-   pure subroutine follow_contact(contact, options, track, films, status, converged)
-      !> The contact
-      type(ehl_contact_t), intent(in) :: contact
-      !> Number of nodes and the like
-      type(ehl_options_t), intent(in) :: options
-      !> The last solutions; they may be none
-      type(ehl_track_t), intent(inout) :: track
-      !> Film and friction
-      type(ehl_films_t), intent(out) :: films
-      !> `in_range`, or what is out of it
-      integer, intent(out) :: status
-      !> Was a solution found?
-      logical, intent(out) :: converged
-
-      type(ehl_problem_t) :: problem
-      type(ehl_films_t) :: both(2)
-      integer :: i
-
-      converged = .false.
-      call new_ehl_problem(problem, contact, status)
-      if (status /= in_range) return
-      if (track%is_started) then
-         if (max(problem%expected_film/track%expected_film, track%expected_film/problem%expected_film) <= largest_drift) then
-            do i = 1, 2
-               track%states(i)%iterations = 0
-               track%states(i)%factorisations = 0
-               call solve_newton(problem, track%grids(i), track%states(i), options%tolerance, step_iterations, converged)
-               if (converged) call warm_film(problem, track%grids(i), track%states(i), options%tolerance, converged)
-               if (.not. converged) exit
-               call get_films(problem, track%grids(i), track%states(i), both(i))
-            end do
-         end if
-      end if
-      if (.not. converged) call start_track(problem, options, track, both, converged)
-      track%is_started = converged
-      if (.not. converged) return
-      if (both(1)%error > 0.0_wp) track%coarse_error = both(1)%error
-      both(1)%error = track%coarse_error
-      call compare_grids(both(1), options%nodes, both(2))
-      films = both(2)
-      films%iterations = sum(both%iterations)
-      films%factorisations = sum(both%factorisations)
-   end subroutine follow_contact
-
-   !> Solutions from nothing on both grids.
-   pure subroutine start_track(problem, options, track, films, converged)
-      !> The problem
-      type(ehl_problem_t), intent(in) :: problem
-      !> Number of nodes and the like
-      type(ehl_options_t), intent(in) :: options
-      !> Grids and solutions
-      type(ehl_track_t), intent(inout) :: track
-      !> Film and friction on both grids
-      type(ehl_films_t), intent(out) :: films(2)
-      !> Were they found?
-      logical, intent(out) :: converged
-
-      type(ehl_options_t) :: half
-      type(ehl_films_t) :: unused
-      integer :: i
-
-      half = options
-      half%nodes = (options%nodes + 1)/2
-      track%expected_film = problem%expected_film
-      do i = 1, 2
-         call solve_on_grids(problem, half, track%grids(i), track%states(i), films(i), unused, converged)
-         if (.not. converged) return
-         half%nodes = options%nodes
-      end do
-   end subroutine start_track
 
    !> Solution from nothing on a coarse grid and from it on finer ones, up to the number of nodes of the options.
    pure subroutine solve_on_grids(problem, options, grid, state, films, coarse, converged)

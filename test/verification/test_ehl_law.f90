@@ -13,7 +13,7 @@ module test_ehl_law
    use camroller_load_share, only : share_t, share_load
    use camroller_traction, only : rolling_resistance, rolling_biboulet_houpert, same_lengths
    use camroller_ehl_problem, only : ehl_contact_t
-   use camroller_ehl_solution, only : ehl_options_t, ehl_track_t, solve_contact_film, follow_contact
+   use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
    use camroller_ehl_films, only : ehl_films_t
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_torque_list, only : of_residual
@@ -41,8 +41,6 @@ contains
          new_unittest("slopes of the table agree with difference quotients, inside and outside", test_slopes), &
          new_unittest("a table that would need contacts above 1.5 GPa is refused", test_too_heavy), &
          new_unittest("a case with a numerical film closes its energy balance", test_case), &
-         new_unittest("a contact solved from a nearby solution has the film of one solved from default initial values", &
-            & test_followed), &
          new_unittest("asperities at each node carry about the share of the load-sharing law", test_rough), &
          new_unittest("thinning without sliding and flow factors without roughness change nothing", test_nothing), &
          new_unittest("shear thinning makes the film thinner, flow factors make it thicker", test_thinning), &
@@ -271,35 +269,6 @@ contains
       end do
       call check_scaled(error, residual, 0.0_wp, power, 1.0e-10_wp, "energy residual")
    end subroutine test_case
-
-   subroutine test_followed(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(ehl_contact_t) :: contact
-      type(ehl_films_t) :: followed, films
-      type(ehl_track_t) :: track
-      type(error_t), allocatable :: failure
-      integer :: i, status
-      logical :: converged
-
-      contact = contact_of_groups(3.0e-5_wp, 1.0e-11_wp, 4440.0_wp)
-      do i = 1, 6
-         contact%line_load = contact%line_load*1.02_wp
-         contact%entrainment_speed = contact%entrainment_speed*0.97_wp
-         call follow_contact(contact, ehl_options_t(), track, followed, status, converged)
-         call check(error, converged, "lost")
-         if (allocated(error)) return
-         call solve_contact_film(contact, ehl_options_t(), films, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
-         ! The grids are those of the first contact: films agree to the errors of both grids together, the central film, which is
-         ! not in a dip between nodes, to what half of all contacts are off at 129 nodes
-         call check_close(error, followed%central, films%central, 4.0_wp/129.0_wp**2, "central film")
-         if (allocated(error)) return
-         call check_close(error, followed%minimum, films%minimum, followed%error + films%error, "smallest film")
-         if (allocated(error)) return
-      end do
-      call check(error, followed%factorisations <= 3, "factors are not kept")
-   end subroutine test_followed
 
    !> The shared load takes the smallest film everywhere and the film's law at the load that the asperities leave; solved at each
    !> place both differ by the shape of the film, not by an order.
