@@ -11,7 +11,7 @@ module test_energy
    use camroller_cycle, only : cycle_t, state_at
    use camroller_events, only : find_stops
    use camroller_film, only : film_law_names
-   use camroller_quadrature, only : gauss_legendre, integrand_t, integrate, integral_reached
+   use camroller_quadrature, only : gauss_legendre
    use camroller_torque_list, only : of_geometric, of_roller_inertia, of_residual
    use closeness, only : check_scaled
    use reference_cases, only : thesis_case, skewed_case, set_point, add_gas_force, make_model, make_cycle, point_speeds, &
@@ -25,14 +25,6 @@ module test_energy
    integer, parameter :: angle_count = 720
    !> Residual allowed, relative to the mean power lost [-]: round-off of a stored power that is up to 1e3 times larger
    real(wp), parameter :: residual_tolerance = 1.0e-10_wp
-
-   !> Geometric torque over the cam angle
-   type, extends(integrand_t) :: geometric_torque_t
-      !> The model
-      type(model_t) :: model
-   contains
-      procedure :: value => geometric_torque
-   end type geometric_torque_t
 
 contains
 
@@ -163,17 +155,18 @@ contains
       end do
    end subroutine test_any_slip
 
-   function geometric_torque(self, x) result(f)
-      class(geometric_torque_t), intent(in) :: self
-      real(wp), intent(in) :: x
-      real(wp) :: f
+   !> Geometric torque at a cam angle.
+   function geometric_torque(model, angle) result(torque)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: angle
+      real(wp) :: torque
       type(position_t) :: position
       type(moments_t) :: moments
       real(wp) :: force
       integer :: status
 
-      call evaluate_loading(self%model, x, position, force, moments, status)
-      f = moments%total*position%finger_slope
+      call evaluate_loading(model, angle, position, force, moments, status)
+      torque = moments%total*position%finger_slope
    end function geometric_torque
 
    !> Energy stored at an angle.
@@ -191,25 +184,25 @@ contains
    end function energy_at
 
    !> Work of the geometric torque between two angles, cut at the stops and at angles in between.
-   subroutine work_between(model, start, finish, cuts, work, error)
+   function work_between(model, start, finish, cuts) result(work)
       type(model_t), intent(in) :: model
       real(wp), intent(in) :: start, finish, cuts(:)
-      real(wp), intent(out) :: work
-      type(error_type), allocatable, intent(out) :: error
-      ! Ends of the pieces [rad], integral and its error [J]
+      real(wp) :: work
+      ! Places and weights of a rule [-]; ends of the pieces, half of a piece [rad]
+      real(wp) :: places(100), weights(100), half
       real(wp), allocatable :: ends(:)
-      real(wp) :: part, doubt
-      integer :: i, status
+      integer :: i, k
 
+      call gauss_legendre(places, weights)
       allocate (ends, source=[start, pack(cuts, cuts > start .and. cuts < finish), finish])
       work = 0.0_wp
       do i = 1, size(ends) - 1
-         call integrate(geometric_torque_t(model), ends(i), ends(i + 1), 1.0e-15_wp, part, doubt, status)
-         if (status /= integral_reached) call test_failed(error, "the work has no integral")
-         if (allocated(error)) return
-         work = work + part
+         half = 0.5_wp*(ends(i + 1) - ends(i))
+         do k = 1, size(places)
+            work = work + half*weights(k)*geometric_torque(model, ends(i) + half*(1.0_wp + places(k)))
+         end do
       end do
-   end subroutine work_between
+   end function work_between
 
    !> Work against energy between angles all over the event.
    subroutine check_work(case, cuts, error)
@@ -232,8 +225,7 @@ contains
       largest = maxval([(energy_at(model, angles(i)), i=1, size(angles))])
       do i = 1, size(angles) - 1
          do k = i + 1, size(angles)
-            call work_between(model, angles(i), angles(k), stops, work, error)
-            if (allocated(error)) return
+            work = work_between(model, angles(i), angles(k), stops)
             call check_scaled(error, work, energy_at(model, angles(k)) - energy_at(model, angles(i)), largest, 1.0e-12_wp, "work")
             if (allocated(error)) return
          end do
@@ -260,13 +252,14 @@ contains
       type(case_t) :: case
 
       case = thesis_case()
+      ! both flanks of the lift meet at the nose
       case%lift%law = "polynomial_4567"
       case%lift%closing_half_angle = 60.0_wp*degree
       call set_point(case, point_speeds(3), point_viscosities(2))
-      call check_work(case, [real(wp) ::], error)
+      call check_work(case, [0.0_wp], error)
       if (allocated(error)) return
       case%mechanism%rotation = rotation_names(2)
-      call check_work(case, [real(wp) ::], error)
+      call check_work(case, [0.0_wp], error)
    end subroutine test_work
 
    subroutine test_work_table(error)
@@ -297,8 +290,7 @@ contains
          call make_model(case, model, error)
          if (allocated(error)) return
          call find_stops(model, stops)
-         call work_between(model, -pi, pi, stops, work, error)
-         if (allocated(error)) return
+         work = work_between(model, -pi, pi, stops)
          call check_scaled(error, work, 0.0_wp, energy_at(model, 0.0_wp), 1.0e-13_wp, "work over a cycle")
          if (allocated(error)) return
       end do
