@@ -15,7 +15,7 @@ module camroller_journal
    private
 
    public :: cam_bearings_t, journal_t, journal_law_names, law_long, law_short, law_finite
-   public :: new_journal, journal_torque, journal_at_speed, journal_friction, law_covers_width, width_advice
+   public :: new_journal, journal_at_speed, law_covers_width, width_advice
    public :: journal_solved, journal_without_film, find_tangent, film_friction, film_t, film_at
    public :: journal_motion_names, motion_quasi_steady, motion_orbit, law_can_orbit, orbit_advice, moves_like_finite, &
       & is_short
@@ -174,24 +174,6 @@ contains
       if (.not. answer) answer = width/diameter >= finite_range(1) .and. width/diameter <= finite_range(2)
    end function law_covers_width
 
-   !> Friction torque of a bearing under a load.
-   pure subroutine journal_torque(journal, load, torque, status)
-      !> The bearing
-      type(journal_t), intent(in) :: journal
-      !> Load [N]
-      real(wp), intent(in) :: load
-      !> Torque against the rotation [N m]
-      real(wp), intent(out) :: torque
-      !> `journal_solved` or `journal_without_film`
-      integer, intent(out) :: status
-
-      !> Friction [N], eccentricity over clearance [-]
-      real(wp) :: friction, eccentricity
-
-      call journal_friction(journal, load, friction, eccentricity, status)
-      torque = friction*journal%radius
-   end subroutine journal_torque
-
    !> Constants of a bearing at a speed.
    pure function journal_at_speed(law, diameter, width, radial_clearance, viscosity, speed) result(journal)
       !> Place in `journal_law_names`
@@ -221,33 +203,6 @@ contains
       journal%unit_load = shear/journal%clearance_ratio
       journal%petroff_friction = 2.0_wp*pi*shear
    end function journal_at_speed
-
-   !> Friction and eccentricity of a bearing under a load.
-   !>
-   !> As the load goes to zero the friction tends to Petroff's; as it grows the eccentricity tends to one and, in the long
-   !> bearing, the friction to `W c/r`. Only the magnitudes of speed and load count.
-   pure subroutine journal_friction(journal, load, friction, eccentricity, status)
-      !> The bearing
-      type(journal_t), intent(in) :: journal
-      !> Load [N]
-      real(wp), intent(in) :: load
-      !> Friction at the journal's surface, against the rotation [N]
-      real(wp), intent(out) :: friction
-      !> Eccentricity over clearance [-]
-      real(wp), intent(out) :: eccentricity
-      !> `journal_solved` or `journal_without_film`
-      integer, intent(out) :: status
-
-      !> t [-]
-      real(wp) :: t
-
-      friction = 0.0_wp
-      eccentricity = 0.0_wp
-      call find_tangent(journal, load, t, status)
-      if (status /= journal_solved) return
-      eccentricity = t/sqrt(1.0_wp + t**2)
-      friction = film_friction(journal, load, t)
-   end subroutine journal_friction
 
    !> Friction of the film on the journal: shear, and half of the moment of the load beside the centre, `1/2 W (c/r) e sin A` with
    !> the attitude angle A. The bearing has as much less, which the shaft does not feel.

@@ -25,35 +25,12 @@ module camroller_journal_motion
    implicit none
    private
 
-   public :: film_velocity, journal_velocity, moving_state, short_force, largest_fitted
+   public :: film_velocity, journal_velocity, moving_state, largest_fitted
 
    !> Eccentricity up to which the velocities of finite width were fitted [-]
    real(wp), parameter :: largest_fitted = 0.98_wp
 
 contains
-
-   !> Force of a short bearing's film that is squeezed with a velocity.
-   pure function short_force(width_ratio, place, velocity) result(force)
-      !> Width over diameter [-]
-      real(wp), intent(in) :: width_ratio
-      !> Place of the journal, below one in size [clearance]
-      real(wp), intent(in) :: place(2)
-      !> Velocity in the frame that turns with half the shaft's speed, not zero [clearance/rad]
-      real(wp), intent(in) :: velocity(2)
-      !> Load that it carries [unit load]
-      real(wp) :: force(2)
-
-      ! Eccentricity, sqrt(1 - e^2) [-], direction of the line of centres [-], integrals [-], velocity along it and across it
-      ! [clearance/rad]
-      real(wp) :: e, s, along(2), integrals(3), v(2)
-
-      call line_of_centres(place, e, along)
-      v = in_frame(along, velocity)
-      s = sqrt((1.0_wp - e)*(1.0_wp + e))
-      integrals = half_integrals(e, s, atan2(v(2), v(1)))
-      v = [integrals(1)*v(1)/s + integrals(2)*v(2), integrals(2)*v(1)/s + integrals(3)*v(2)]/[s**4, s**3]
-      force = 4.0_wp*width_ratio**2*from_frame(along, v)
-   end function short_force
 
    !> Velocity with which a load squeezes the film of a bearing.
    pure function film_velocity(journal, place, load) result(velocity)

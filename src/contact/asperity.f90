@@ -19,7 +19,7 @@ module camroller_asperity
    public :: boundary_friction_t, find_boundary_friction, largest_coefficient, has_one_coefficient
    public :: law_greenwood_tripp, law_zhao_maietta_chang, law_masjedi_khonsari, smallest_product
    public :: new_asperity_constants, asperity_load_function, asperity_area_function
-   public :: asperity_load, asperity_area, load_factor
+   public :: load_factor
 
    !> Laws of touching asperities: elastic summits of both surfaces, summits of one surface that yield against a plane, or
    !> the regression that goes with the rough film of Masjedi and Khonsari
@@ -340,57 +340,8 @@ contains
       end if
    end subroutine asperity_area_function
 
-   !> Load on the asperities by Greenwood and Tripp:
+   !> Asperity load over apparent area and F_5/2, Greenwood and Tripp:
    !> `W_a = (8 sqrt(2)/15) pi (eta beta sigma)^2 sqrt(sigma/beta) E' A_a F_5/2(h/sigma)`.
-   elemental subroutine asperity_load(film_ratio, roughness_product, roughness_over_tip_radius, modulus, area, &
-      load, slope)
-      !> Film thickness over roughness, h/sigma >= 0 [-]
-      real(wp), intent(in) :: film_ratio
-      !> eta beta sigma [-]
-      real(wp), intent(in) :: roughness_product
-      !> sigma/beta [-]
-      real(wp), intent(in) :: roughness_over_tip_radius
-      !> Equivalent modulus, E' [Pa]
-      real(wp), intent(in) :: modulus
-      !> Apparent contact area, A_a [m^2]
-      real(wp), intent(in) :: area
-      !> Load, W_a [N]
-      real(wp), intent(out) :: load
-      !> Derivative of the load with respect to the film ratio [N]
-      real(wp), intent(out) :: slope
-
-      !> Load for F_5/2 = 1 [N]
-      real(wp) :: scale
-
-      scale = load_factor(roughness_product, roughness_over_tip_radius, modulus)*area
-      call integral_5_2(film_ratio, load, slope)
-      load = scale*load
-      slope = scale*slope
-   end subroutine asperity_load
-
-   !> Real contact area by Greenwood and Tripp, `A_r = pi^2 (eta beta sigma)^2 A_a F_2(h/sigma)`.
-   elemental subroutine asperity_area(film_ratio, roughness_product, area, real_area, slope)
-      !> Film thickness over roughness, h/sigma >= 0 [-]
-      real(wp), intent(in) :: film_ratio
-      !> eta beta sigma [-]
-      real(wp), intent(in) :: roughness_product
-      !> Apparent contact area, A_a [m^2]
-      real(wp), intent(in) :: area
-      !> Real contact area, A_r [m^2]
-      real(wp), intent(out) :: real_area
-      !> Derivative of the real area with respect to the film ratio [m^2]
-      real(wp), intent(out) :: slope
-
-      !> Real area for F_2 = 1 [m^2]
-      real(wp) :: scale
-
-      scale = area_factor(roughness_product)*area
-      call integral_2(film_ratio, real_area, slope)
-      real_area = scale*real_area
-      slope = scale*slope
-   end subroutine asperity_area
-
-   !> Asperity load over apparent area and F_5/2, Greenwood and Tripp.
    elemental function load_factor(roughness_product, roughness_over_tip_radius, modulus) result(factor)
       !> eta beta sigma [-]
       real(wp), intent(in) :: roughness_product
@@ -404,7 +355,7 @@ contains
       factor = 8.0_wp*sqrt(2.0_wp)/15.0_wp*pi*roughness_product**2*sqrt(roughness_over_tip_radius)*modulus
    end function load_factor
 
-   !> Real over apparent area and F_2, Greenwood and Tripp.
+   !> Real over apparent area and F_2, Greenwood and Tripp, `A_r = pi^2 (eta beta sigma)^2 A_a F_2(h/sigma)`.
    elemental function area_factor(roughness_product) result(factor)
       !> eta beta sigma [-]
       real(wp), intent(in) :: roughness_product

@@ -11,7 +11,7 @@ module camroller_lash_adjuster
 
    public :: lash_adjuster_t, adjuster_t, flows_t, leak_end_names, ambient_pressure, new_adjuster, set_supply, set_adjuster_oil, &
       & relative_volume, bulk_modulus, pressure_work, evaluate_flows, opening_pressure, chamber_volume, adjuster_force, &
-      & oil_energy, leak_down_time
+      & oil_energy
 
    !> Where the leak ends: inside, in the feed, or outside, where there is no pressure
    character(len=*), parameter :: leak_end_names(*) = [character(len=name_length) :: "feed", "ambient"]
@@ -272,25 +272,5 @@ contains
       energy = chamber_volume(adjuster, travel)*(pressure_work(adjuster%given, pressure)/relative_volume(adjuster%given, pressure) &
          & - pressure)
    end function oil_energy
-
-   !> Time in which a constant force presses the plunger down against the leak alone, with the leak's end at no pressure.
-   elemental function leak_down_time(adjuster, force, travel) result(time)
-      !> The adjuster
-      type(adjuster_t), intent(in) :: adjuster
-      !> Force [N]
-      real(wp), intent(in) :: force
-      !> Travel, from the middle place downwards [m]
-      real(wp), intent(in) :: travel
-      !> Time [s]
-      real(wp) :: time
-
-      associate (excess => force - adjuster%spring_force, stiffness => adjuster%given%spring_stiffness)
-         if (stiffness > 0.0_wp) then
-            time = adjuster%area**2/(adjuster%conductance*stiffness)*log(excess/(excess - stiffness*travel))
-         else
-            time = adjuster%area**2*travel/(adjuster%conductance*excess)
-         end if
-      end associate
-   end function leak_down_time
 
 end module camroller_lash_adjuster

@@ -9,7 +9,7 @@ module camroller_spring_modes
    private
 
    public :: spring_surge_t, spring_modes_t, most_modes, new_spring_modes, effective_mass, valve_pull, wave_compression, &
-      & mode_energy, surge_of_harmonic
+      & mode_energy
 
    !> Modes that a spring can have
    integer, parameter :: most_modes = 20
@@ -156,28 +156,5 @@ contains
             & + 0.25_wp*(modes%frequency(n)*amplitudes(n))**2)
       end do
    end function mode_energy
-
-   !> Force amplitude of a mode that one harmonic of the lift forces, `k n pi q_n`.
-   elemental function surge_of_harmonic(modes, n, harmonic, cam_speed, amplitude) result(force)
-      !> The modes
-      type(spring_modes_t), intent(in) :: modes
-      !> Number of the mode
-      integer, intent(in) :: n
-      !> Number of the harmonic
-      integer, intent(in) :: harmonic
-      !> Cam speed [rad/s]
-      real(wp), intent(in) :: cam_speed
-      !> Amplitude of the harmonic of the lift [m]
-      real(wp), intent(in) :: amplitude
-      !> Amplitude of the force [N]
-      real(wp) :: force
-
-      ! Frequency of the harmonic [rad/s]
-      real(wp) :: rate
-
-      rate = harmonic*cam_speed
-      force = 2.0_wp*modes%stiffness*rate**2*amplitude/sqrt((modes%frequency(n)**2 - rate**2)**2 &
-         & + (2.0_wp*modes%damping_ratio*modes%frequency(n)*rate)**2)
-   end function surge_of_harmonic
 
 end module camroller_spring_modes

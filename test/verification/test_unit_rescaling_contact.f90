@@ -7,8 +7,7 @@ module test_unit_rescaling_contact
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, relative_viscosity, mean_relative_viscosity
    use camroller_film, only : film_line_t, groups_t, film_law_names, new_film_line
-   use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load, &
-      & asperity_area
+   use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants
    use camroller_load_share, only : share_t, share_load, improve_share
    use camroller_traction, only : rolling_law_names, cap_names, film_pressure, newtonian_shear, eyring_shear, &
       & limit_shear, mobilised_share, rolling_resistance, same_lengths
@@ -126,20 +125,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(asperity_constants_t) :: constants, constants_in_units
       type(units_t) :: u
-      real(wp) :: f(2), g(2)
       integer :: i
 
       do i = 1, size(systems)
          u = systems(i)
-         call asperity_load(1.2_wp, 0.04_wp, 0.01_wp, modulus, 1.4e-6_wp, f(1), f(2))
-         call asperity_load(1.2_wp, 0.04_wp, 0.01_wp, scaled(u, modulus, pressure), scaled(u, 1.4e-6_wp, area), &
-            g(1), g(2))
-         call compare(error, "asperity load", u, force, f, g)
-         if (allocated(error)) return
-         call asperity_area(1.2_wp, 0.04_wp, 1.4e-6_wp, f(1), f(2))
-         call asperity_area(1.2_wp, 0.04_wp, scaled(u, 1.4e-6_wp, area), g(1), g(2))
-         call compare(error, "real area", u, area, f, g)
-         if (allocated(error)) return
          call new_asperity_constants(constants, asperity_t(), modulus)
          call new_asperity_constants(constants_in_units, asperity_t(), scaled(u, modulus, pressure))
          call compare(error, "load factor", u, pressure, [constants%load_factor], [constants_in_units%load_factor])

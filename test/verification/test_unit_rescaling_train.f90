@@ -12,7 +12,8 @@ module test_unit_rescaling_train
    use camroller_guide, only : guide_drag_coefficient
    use camroller_roller, only : ring_inertia, spin_acceleration
    use camroller_torque, only : cam_torque, contact_power, normal_direction
-   use camroller_journal, only : journal_law_names, journal_at_speed, journal_friction
+   use camroller_journal, only : journal_law_names, journal_at_speed
+   use camroller_bearing_asperity, only : bearing_state_t, carry_load
    use camroller_camshaft, only : bearing_shares
    use camroller_lift, only : lift_t, lift_law_t, lift_law_names, new_lift_law, evaluate_lift
    use camroller_spline, only : spline_t, new_clamped_spline, evaluate_spline
@@ -300,19 +301,19 @@ contains
    subroutine test_journals(error)
       type(error_type), allocatable, intent(out) :: error
       type(units_t) :: u
-      real(wp) :: friction, e, friction_in_units, e_in_units
+      type(bearing_state_t) :: state, state_in_units
       integer :: i, law, status
 
       do i = 1, size(systems)
          u = systems(i)
          do law = 1, size(journal_law_names)
-            call journal_friction(journal_at_speed(law, 0.026_wp, 0.018_wp, 5.0e-5_wp, eta, 63.0_wp), load, friction, e, status)
-            call journal_friction(journal_at_speed(law, scaled(u, 0.026_wp, length), scaled(u, 0.018_wp, length), &
+            call carry_load(journal_at_speed(law, 0.026_wp, 0.018_wp, 5.0e-5_wp, eta, 63.0_wp), [load, 0.0_wp], state, status)
+            call carry_load(journal_at_speed(law, scaled(u, 0.026_wp, length), scaled(u, 0.018_wp, length), &
                & scaled(u, 5.0e-5_wp, length), scaled(u, eta, viscosity), scaled(u, 63.0_wp, angular_speed)), &
-               & scaled(u, load, force), friction_in_units, e_in_units, status)
-            call compare(error, journal_law_names(law), u, force, [friction], [friction_in_units])
+               & [scaled(u, load, force), 0.0_wp], state_in_units, status)
+            call compare(error, journal_law_names(law), u, torque, [state%torque], [state_in_units%torque])
             if (allocated(error)) return
-            call compare(error, "eccentricity", u, number, [e], [e_in_units])
+            call compare(error, "eccentricity", u, number, [state%eccentricity], [state_in_units%eccentricity])
             if (allocated(error)) return
          end do
       end do
