@@ -1,12 +1,13 @@
 !> What is public of the core, under one name: no code. The core is everything up to decks, runs and followers, without HDF5 files.
 !>
 !> A program that links libcamroller without libcamroller_io needs this module alone; `camroller` has the same and sweeps beside.
-module camroller_core
+module camroller_core ! style: private because it gives on all that it uses
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_blas_threads, only : use_one_blas_thread
    use camroller_error, only : error_t, kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
    use camroller_version, only : version_text, version_number
-   use camroller_case, only : case_t, operating_point_t, numerics_t
+   use camroller_case, only : case_t, operating_point_t, numerics_t, selection_t
+   use camroller_engine, only : engine_t
    use camroller_lift, only : lift_t
    use camroller_kinematics, only : mechanism_t
    use camroller_dynamics, only : masses_t, spring_t, gas_force_t
@@ -33,6 +34,9 @@ module camroller_core
    use camroller_bearing_heat, only : bearing_heat_t
    use camroller_camshaft, only : belt_pull_t
    use camroller_shaft_drag, only : shaft_drag_t
+   use camroller_flexible_parts, only : dynamics_t
+   use camroller_spring_modes, only : spring_surge_t
+   use camroller_lash_adjuster, only : lash_adjuster_t
    use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_mistakes, only : line_t
@@ -42,24 +46,10 @@ module camroller_core
    use camroller_shaft_simulation, only : shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, &
       & cam_number, cam_place, shaft_angle, shaft_series, shaft_values
    use camroller_torque_list, only : torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
-      & of_damping, of_bearings, of_residual
+      & of_damping, of_bearings, of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_residual
    use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, &
       & simulation_angle, simulation_series, simulation_values
    implicit none
-   private
-
-   public :: wp, pi, two_pi, degree, version_text, version_number
-   public :: error_t, kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
-   public :: case_t, operating_point_t, numerics_t, lift_t, mechanism_t, masses_t, spring_t, gas_force_t, materials_t, surface_t, &
-      & lubricant_t, film_t, ehl_t, asperity_t, traction_t, heat_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
-   public :: needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t
-   public :: bearing_asperity_t, belt_pull_t, bearing_heat_t, shaft_drag_t, friction_modifier_t, roller_profile_t, boundary_law_t
-   public :: wear_t, tribofilm_t, running_in_t
-   public :: deck_t, override_t, read_deck, parse_deck, make_case, list_deck_remarks, line_t
-   public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
-   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
-   public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft
-   public :: cam_number, cam_place, shaft_angle, shaft_series, shaft_values, simulation_angle, simulation_series, simulation_values
-   public :: torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
+   public
 
 end module camroller_core

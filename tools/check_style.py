@@ -140,7 +140,12 @@ def check_statements(report: Report, code: list[Statement], folder: str) -> None
 
 
 def check_imports(report: Report, code: list[Statement]) -> None:
-    """No name after `only` that the file does not use; operators and assignments may be used without their name."""
+    """No name after `only` that the file does not use; operators and assignments may be used without their name.
+
+    A module that is public as a whole gives on what it uses.
+    """
+    if any(statement.text == "public" for statement in code):
+        return
     used = set()
     for statement in code:
         if not IMPORTS.match(statement.text):

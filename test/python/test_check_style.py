@@ -97,6 +97,13 @@ def test_names_that_are_used_may_be_imported(tmp_path, capsys, names):
     assert faults(tmp_path, capsys, text) == []
 
 
+def test_a_module_that_is_public_gives_on_what_it_uses(tmp_path, capsys):
+    text = GOOD.replace("only : wp", "only : wp, pi")
+    assert faults(tmp_path, capsys, text) == ["import"]
+    (tmp_path / "other").mkdir()
+    assert faults(tmp_path / "other", capsys, text.replace("   private\n", "   public\n")) == ["private"]
+
+
 def test_one_unit_comment_covers_consecutive_declarations(tmp_path, capsys):
     line = "      real(wp) :: stop_length ! [m]"
     assert line in GOOD

@@ -119,6 +119,15 @@ def test_no_call_of_c_has_the_name_of_a_module():
     assert "camroller_case_run" in calls and not calls & modules
 
 
+def test_all_that_a_case_is_made_of_and_all_torques_are_public():
+    core = (ROOT / "src" / "core.f90").read_text()
+    case = (ROOT / "src" / "case" / "case.f90").read_text()
+    components = re.search(r"type :: case_t\n(.*?)end type case_t", case, re.DOTALL)[1]
+    torques = re.findall(r"\bof_\w+", (ROOT / "src" / "losses" / "torque_list.f90").read_text())
+    names = {*re.findall(r"\btype\((\w+)\)", components), *torques}
+    assert len(names) > 40 and names - set(re.findall(r"\w+", core)) == set()
+
+
 def test_a_fortran_program_and_a_cmake_project_find_the_prefix(prefix, tmp_path):
     (tmp_path / "host.f90").write_text("""program host
    use camroller_core, only : wp, error_t, deck_t, override_t, case_t, simulation_t, outcome_t, inputs_t, read_deck, make_case, &

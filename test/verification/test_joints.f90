@@ -13,8 +13,8 @@ module test_joints
    use camroller_contact_forces, only : contact_t
    use camroller_joint_forces, only : joint_values_t, evaluate_joints
    use camroller_state, only : state_t, evaluate_state
-   use camroller_torque_list, only : of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_geometric, &
-      & of_residual, torque_count, is_loss
+   use camroller, only : of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_geometric, of_residual
+   use camroller_torque_list, only : torque_count, is_loss
    use camroller_means, only : integrate_torques
    use camroller_cycle, only : cycle_t, state_at
    use camroller_events, only : find_stops
