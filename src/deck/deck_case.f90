@@ -7,6 +7,7 @@ module camroller_deck_case
    use camroller_kinds, only : pi, wp
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
+   use camroller_roller, only : roller_t
    use camroller_table_file, only : table_t
    use camroller_settings, only : settings_t, take, get_word, has_group, is_known
    use camroller_deck_asperity, only : fill_modifier
@@ -19,7 +20,7 @@ module camroller_deck_case
    use camroller_deck_profile, only : fill_profile
    use camroller_deck_roller_bearing, only : fill_roller_bearing
    use camroller_deck_joints, only : fill_joints
-   use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table
+   use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table, take_mechanism
    implicit none
    private
 
@@ -41,7 +42,8 @@ contains
       call take(settings, "case", "contact_policy", case%contact_policy)
       call take(settings, "operating_point", "speed_rpm", case%operating_point%speed)
       call take(settings, "operating_point", "oil_temperature_degC", case%operating_point%oil_temperature)
-      call fill_mechanism(settings, case)
+      call take_mechanism(settings, case%mechanism)
+      call fill_roller(settings, case%roller)
       call fill_lift(settings, "lift", tables%lift, case%lift)
       if (has_group(settings, "second_lift")) then
          allocate (case%second_lift)
@@ -65,30 +67,17 @@ contains
       call fill_numerics(settings, case)
    end subroutine fill_case
 
-   !> Geometry and roller.
-   subroutine fill_mechanism(settings, case)
+   !> Roller, but for its radius, which belongs to the mechanism.
+   subroutine fill_roller(settings, roller)
       !> The settings
       type(settings_t), intent(in) :: settings
-      !> The case
-      type(case_t), intent(inout) :: case
+      !> The roller
+      type(roller_t), intent(inout) :: roller
 
-      associate (mechanism => case%mechanism, roller => case%roller)
-         call take(settings, "mechanism", "pivot_to_roller_mm", mechanism%pivot_to_roller)
-         call take(settings, "mechanism", "pivot_to_pad_mm", mechanism%pivot_to_pad)
-         call take(settings, "mechanism", "pivot_to_cam_mm", mechanism%pivot_to_cam)
-         call take(settings, "mechanism", "roller_arm_angle_deg", mechanism%roller_arm_angle)
-         call take(settings, "mechanism", "valve_axis_angle_deg", mechanism%valve_axis_angle)
-         call take(settings, "mechanism", "adjuster_tilt_deg", mechanism%adjuster_tilt)
-         call take(settings, "mechanism", "base_radius_mm", mechanism%base_radius)
-         call take(settings, "mechanism", "contact_width_mm", mechanism%contact_width)
-         call take(settings, "mechanism", "grinding_wheel_radius_mm", mechanism%grinding_wheel_radius)
-         call take(settings, "mechanism", "rotation", mechanism%rotation)
-         call take(settings, "roller", "radius_mm", mechanism%roller_radius)
-         call take(settings, "roller", "mass_kg", roller%mass)
-         call take(settings, "roller", "wall_thickness_mm", roller%wall_thickness)
-         call take(settings, "roller", "spin", roller%spin)
-      end associate
-   end subroutine fill_mechanism
+      call take(settings, "roller", "mass_kg", roller%mass)
+      call take(settings, "roller", "wall_thickness_mm", roller%wall_thickness)
+      call take(settings, "roller", "spin", roller%spin)
+   end subroutine fill_roller
 
    !> One lift.
    subroutine fill_lift(settings, group, table, lift)

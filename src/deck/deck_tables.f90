@@ -19,7 +19,7 @@ module camroller_deck_tables
    private
 
    public :: deck_tables_t, kept_table_t, table_groups, find_table, obtain_tables, get_lift_table, get_pressure_table
-   public :: wanted_columns
+   public :: wanted_columns, take_mechanism
 
    !> Groups whose key `table` names a table of two columns
    character(len=*), parameter :: table_groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force"]
@@ -396,7 +396,7 @@ contains
       if (kind == kind_roller) lift = valve_lift_of(mechanism, lift)
    end subroutine get_lift_table
 
-   !> Dimensions that turn a lift of the roller into one of the valve.
+   !> Dimensions of the mechanism.
    subroutine take_mechanism(settings, mechanism)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -408,7 +408,10 @@ contains
       call take(settings, "mechanism", "pivot_to_cam_mm", mechanism%pivot_to_cam)
       call take(settings, "mechanism", "roller_arm_angle_deg", mechanism%roller_arm_angle)
       call take(settings, "mechanism", "valve_axis_angle_deg", mechanism%valve_axis_angle)
+      call take(settings, "mechanism", "adjuster_tilt_deg", mechanism%adjuster_tilt)
       call take(settings, "mechanism", "base_radius_mm", mechanism%base_radius)
+      call take(settings, "mechanism", "contact_width_mm", mechanism%contact_width)
+      call take(settings, "mechanism", "grinding_wheel_radius_mm", mechanism%grinding_wheel_radius)
       call take(settings, "mechanism", "rotation", mechanism%rotation)
       call take(settings, "roller", "radius_mm", mechanism%roller_radius)
    end subroutine take_mechanism
