@@ -32,9 +32,8 @@ module camroller_ehl_films
       real(wp) :: real_area = 0.0_wp
       !> Rolling resistance of a surface over length, `int h/2 dp/dx dx` [N/m]
       real(wp) :: rolling = 0.0_wp
-      !> Shear of a full film over length and sliding speed, `int eta/h dx` where no asperities touch [Pa s/m]; over the Hertz zone
-      !> alone
-      real(wp) :: shear_slope = 0.0_wp, shear_slope_inside = 0.0_wp
+      !> Shear of a full film over length and sliding speed, `int eta/h dx` where no asperities touch [Pa s/m]
+      real(wp) :: shear_slope = 0.0_wp
       !> Cells of the film, where the problem keeps them, shape (3, cell): shear over length and sliding speed [Pa s/m]; area over
       !> length, without asperities [m], and pressure on it [N/m], both times the limiting stress over that of the oil around
       real(wp), allocatable :: cells(:, :)
@@ -163,7 +162,6 @@ contains
          call cell_shear(grid, state, shear, slopes)
          shear = shear*(1.0_wp - 0.5_wp*(touching(:n - 1) + touching(2:)))
          films%shear_slope = sum(shear)
-         films%shear_slope_inside = sum(shear, mask=abs(grid%x(:n - 1) + grid%x(2:)) <= 2.0_wp)
       end associate
       films%shear_slope = films%shear_slope*problem%oil%viscosity*problem%length_scale/problem%film_scale
       if (problem%keeps_cells) then
@@ -171,7 +169,6 @@ contains
          films%cells(1, :) = shear*problem%oil%viscosity*problem%length_scale/problem%film_scale
          call cell_areas(problem, grid, state, touching, films%cells(2, :), films%cells(3, :))
       end if
-      films%shear_slope_inside = films%shear_slope_inside*problem%oil%viscosity*problem%length_scale/problem%film_scale
    end subroutine get_friction
 
    !> Areas on which the film is full and no asperities touch, over length, and the film's pressure on them; both weighed with the
