@@ -44,11 +44,11 @@ def test_an_audit_has_a_run_without_each_effect(camroller, folder):
 
 
 def test_an_audit_ends_with_the_code_of_a_case_without_a_result(camroller, folder):
-    result = start(camroller, "audit", "one.nml", "--repeats", "1", "--quiet", "-o", "lost.h5", "--set", "case.contact_policy=stop",
-                   "--set", "operating_point.speed_rpm=3000", folder=folder)
+    result = run(camroller, "audit", "one.nml", "--repeats", "1", "--quiet", "-o", "lost.h5", "--set", "case.contact_policy=stop",
+                 "--set", "operating_point.speed_rpm=3000", folder=folder)
     assert result.returncode == 4 and result.stderr.startswith("camroller: contact is lost for ") and not (folder / "lost.h5").exists()
     (folder / "fast.nml").write_text((folder / "two.nml").read_text().replace("oil_temperature_degC'", "speed_rpm'").replace("25, 95", "600, 3000"))
-    result = start(camroller, "audit", "fast.nml", "--repeats", "1", "--quiet", "--set", "case.contact_policy=stop", folder=folder)
+    result = run(camroller, "audit", "fast.nml", "--repeats", "1", "--quiet", "--set", "case.contact_policy=stop", folder=folder)
     assert result.returncode == 4
     assert result.stderr.startswith("camroller: 1 of 2 cases has no result: case 1 (operating_point.speed_rpm=3000): contact is lost for ")
     with h5py.File(folder / "fast_audit.h5") as file:

@@ -219,7 +219,7 @@ def test_study_of_laws_shows_the_range_that_runs_give(camroller, tmp_path):
 
 def test_study_of_laws_ends_with_the_code_of_a_case_without_a_result(camroller):
     values = ["--set", "case.contact_policy=stop", "--set", "sweep.values_1=300,3000", "--set", "sweep.values_2=25"]
-    words = run(camroller, "study", "decks/thesis.nml", "--laws", *values, code=4).stderr
+    words = done(camroller, "study", "decks/thesis.nml", "--laws", *values, code=4).stderr
     assert words.startswith("camroller: 1 of 2 cases has no result: case 1 (operating_point.speed_rpm=3000, operating_point.oil_")
 
 
