@@ -61,13 +61,13 @@ contains
       verdict = range%share > 0.0_wp .and. (range%event_share > 0.0_wp .or. range%outside_loss > small_part*range%loss)
    end function matters
 
-   !> How far the groups are outside, as the logarithm of the largest factor between one and its bound.
+   !> How far the groups are outside: the sum over them of the logarithm of the factor between one and its bound.
    pure function distance_outside(range, law) result(distance)
       !> What is known
       type(film_range_t), intent(in) :: range
       !> Position of the law in `film_law_names`
       integer, intent(in) :: law
-      !> The logarithm; zero where the law has no published range [-]
+      !> The sum; zero where the law has no published range [-]
       real(wp) :: distance
 
       ! Published bounds of the groups [-]
@@ -76,8 +76,8 @@ contains
       distance = 0.0_wp
       if (law == law_table) return
       bounds = max(published_range(law), tiny(1.0_wp))
-      distance = max(0.0_wp, maxval(log(bounds(1, :)) - log(max(range%smallest, tiny(1.0_wp)))), &
-         & maxval(log(max(range%largest, tiny(1.0_wp))) - log(bounds(2, :))))
+      distance = sum(max(0.0_wp, log(bounds(1, :)) - log(max(range%smallest, tiny(1.0_wp))))) &
+         & + sum(max(0.0_wp, log(max(range%largest, tiny(1.0_wp))) - log(bounds(2, :))))
    end function distance_outside
 
    !> Where, which groups with their bounds, how much loss, and which laws cover it.
