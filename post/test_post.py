@@ -320,6 +320,9 @@ def test_a_file_that_cannot_be_used_gives_one_line_and_code_2(nine, capsys, spoi
 def test_a_file_of_another_command_names_its_script(tmp_path, capsys, group, words):
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file.create_group(group)
+        if group == "ehl":
+            file.create_group("series")
+            file["summary/status"] = np.zeros(2)
     assert main([str(tmp_path / "other.h5")]) == 2
     assert words in capsys.readouterr().err
 
