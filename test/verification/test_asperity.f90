@@ -6,7 +6,7 @@ module test_asperity
    use camroller_greenwood_tripp, only : integral_2, integral_5_2, largest_film_ratio
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
       asperity_area_function
-   use table_file, only : read_table
+   use labelled_table, only : read_table
    implicit none
    private
 

@@ -12,7 +12,7 @@ module test_cycle_reference
    use camroller_cycle, only : cycle_t, state_at
    use camroller_quadrature, only : gauss_legendre
    use camroller_torque_list, only : of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
-   use labelled_table, only : read_labelled_table, label_length
+   use labelled_table, only : label_length, read_table
    use closeness, only : check_close, check_scaled
    use reference_cases, only : named_case, make_model, make_cycle
    implicit none
@@ -85,7 +85,7 @@ contains
       real(wp) :: values(18), sizes(18)
       integer :: i, k, status
 
-      call read_labelled_table("cycle_reference.csv", columns, names, rows, error)
+      call read_table("cycle_reference.csv", columns, rows, error, names)
       if (allocated(error)) return
       if (size(names) < 100) call test_failed(error, "rows are missing")
       if (allocated(error)) return
@@ -159,7 +159,7 @@ contains
       type(error_t), allocatable :: failure
       integer :: i, hint
 
-      call read_labelled_table("cycle_reference.csv", columns, names, rows, error)
+      call read_table("cycle_reference.csv", columns, rows, error, names)
       if (allocated(error)) return
       case = named_case(name)
       case%numerics%method = "dormand_prince"
@@ -193,7 +193,7 @@ contains
       real(wp) :: means(mean_columns)
       integer :: i, k
 
-      call read_labelled_table("cycle_reference_means.csv", mean_columns, names, rows, error)
+      call read_table("cycle_reference_means.csv", mean_columns, rows, error, names)
       if (allocated(error)) return
       means = cycle_means(model, cycle)
       do i = 1, size(names)

@@ -11,7 +11,7 @@ module test_ehl
    use camroller_ehl_solution, only : ehl_options_t, solve_contact_film, solve_on_grids, solve_on_grid
    use camroller_ehl_films, only : ehl_films_t, get_films
    use closeness, only : check_close, check_scaled, expect_success, expect_error
-   use labelled_table, only : read_labelled_table, label_length
+   use labelled_table, only : label_length, read_table
    use ehl_contacts, only : contact_of_groups, contact_of_row
    implicit none
    private
@@ -134,7 +134,7 @@ contains
       real(wp), allocatable :: rows(:, :)
       integer :: i, shape
 
-      call read_labelled_table("line_contacts.csv", 11, labels, rows, error)
+      call read_table("line_contacts.csv", 11, rows, error, labels)
       if (allocated(error)) return
       options%nodes = 257
       options%reach = [4.0_wp, 2.0_wp]
@@ -161,7 +161,7 @@ contains
       real(wp), allocatable :: rows(:, :)
       integer :: i
 
-      call read_labelled_table("line_contacts.csv", 11, labels, rows, error)
+      call read_table("line_contacts.csv", 11, rows, error, labels)
       if (allocated(error)) return
       options%nodes = 257
       do i = 1, size(labels)
@@ -193,7 +193,7 @@ contains
       real(wp), allocatable :: rows(:, :)
       integer :: i
 
-      call read_labelled_table("masjedi_khonsari.csv", 12, labels, rows, error)
+      call read_table("masjedi_khonsari.csv", 12, rows, error, labels)
       if (allocated(error)) return
       do i = 1, size(labels)
          if (rows(4, i) > 1.0e-6_wp) cycle

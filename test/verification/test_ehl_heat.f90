@@ -27,7 +27,7 @@ module test_ehl_heat
    use closeness, only : check_close, expect_success
    use lobe_cases, only : run
    use reference_cases, only : add_heat, point_speeds, point_viscosities, set_point, thesis_case
-   use table_file, only : read_table
+   use labelled_table, only : read_table
    implicit none
    private
 

@@ -11,7 +11,7 @@ module test_ehl_rough
    use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
    use closeness, only : check_close, expect_success
    use ehl_contacts, only : contact_of_groups
-   use labelled_table, only : label_length, read_labelled_table
+   use labelled_table, only : label_length, read_table
    implicit none
    private
 
@@ -49,7 +49,7 @@ contains
       integer :: unit, i, way
       logical :: is_outside
 
-      call read_labelled_table("masjedi_khonsari.csv", 12, labels, rows, error)
+      call read_table("masjedi_khonsari.csv", 12, rows, error, labels)
       if (allocated(error)) return
       call open_table(unit)
       do i = 1, size(labels)

@@ -4,7 +4,7 @@ module test_film_literature
    use camroller_kinds, only : wp
    use camroller_film, only : groups_t, film_shape_t, film_shape, film_law_names, law_masjedi_khonsari, asperity_part, &
       & law_masjedi_khonsari_rough, law_dowson_higginson, law_pan_hamrock, law_moes
-   use labelled_table, only : read_labelled_table, label_length
+   use labelled_table, only : label_length, read_table
    use closeness, only : check_scaled
    implicit none
    private
@@ -34,7 +34,7 @@ contains
       real(wp) :: part, slopes(3)
       integer :: i, law
 
-      call read_labelled_table("masjedi_khonsari.csv", 12, names, rows, error)
+      call read_table("masjedi_khonsari.csv", 12, rows, error, names)
       if (allocated(error)) return
       if (size(names) /= 16) call test_failed(error, "16 rows are expected")
       do i = 1, size(names)

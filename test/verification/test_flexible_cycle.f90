@@ -17,7 +17,7 @@ module test_flexible_cycle
    use reference_cases, only : thesis_case, make_model, set_point
    use flexible_cases, only : add_dynamics
    use camroller_train_outlook, only : find_outlook, outlook_t
-   use labelled_table, only : label_length, read_labelled_table
+   use labelled_table, only : label_length, read_table
    use closeness, only : check_close, check_scaled
    implicit none
    private
@@ -304,7 +304,7 @@ contains
       real(wp), allocatable :: rows(:, :), state(:), values(:)
       integer :: i, row
 
-      call read_labelled_table("train_reference.csv", 18, labels, rows, error)
+      call read_table("train_reference.csv", 18, rows, error, labels)
       if (allocated(error)) return
       row = findloc(labels, "lash_900", 1)
       the_case = reference(900.0_wp, .false.)

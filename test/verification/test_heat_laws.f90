@@ -12,7 +12,7 @@ module test_heat_laws
    use camroller_names, only : index_of_name
    use camroller_traction, only : law_newtonian, law_eyring, cap_smooth, limit_shear
    use closeness, only : check_close, check_scaled, roundings
-   use labelled_table, only : read_labelled_table, label_length
+   use labelled_table, only : label_length, read_table
    implicit none
    private
 
@@ -69,7 +69,7 @@ contains
       real(wp) :: mean, factor, slopes(3)
       integer :: i, law
 
-      call read_labelled_table("heat_reference.csv", 4, names, rows, error)
+      call read_table("heat_reference.csv", 4, rows, error, names)
       if (allocated(error)) return
       do i = 1, size(names)
          law = index_of_name(trim(names(i)), inlet_law_names)
@@ -263,7 +263,7 @@ contains
       type(hot_oil_t) :: hot
       integer :: i, law, k, rows_found
 
-      call read_labelled_table("heat_reference.csv", 4, names, rows, error)
+      call read_table("heat_reference.csv", 4, rows, error, names)
       if (allocated(error)) return
       bodies%conductivity = conductivity
       bodies%diffusivity = conductivity/(density*capacity)

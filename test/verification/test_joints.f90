@@ -20,7 +20,7 @@ module test_joints
    use camroller_events, only : find_stops
    use camroller_traction, only : rolling_law_names, rolling_none
    use closeness, only : check_close, check_scaled, expect_error, roundings
-   use labelled_table, only : read_labelled_table, label_length
+   use labelled_table, only : label_length, read_table
    use reference_cases, only : thesis_case, skewed_case, make_model, make_cycle, set_point, add_gas_force, add_joints, &
       point_speeds, point_viscosities
    implicit none
@@ -112,7 +112,7 @@ contains
       real(wp) :: found(13), sizes(13)
       integer :: i, k, status
 
-      call read_labelled_table("joint_reference.csv", columns, names, rows, error)
+      call read_table("joint_reference.csv", columns, rows, error, names)
       if (allocated(error)) return
       call check(error, size(names) > 50, "rows are missing")
       if (allocated(error)) return

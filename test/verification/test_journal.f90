@@ -7,7 +7,7 @@ module test_journal
       journal_at_speed, find_tangent, film_friction, journal_solved, journal_without_film
    use camroller_bearing_asperity, only : bearing_state_t, carry_load
    use camroller_quadrature, only : gauss_legendre
-   use table_file, only : read_table
+   use labelled_table, only : read_table
    implicit none
    private
 

@@ -7,7 +7,7 @@ module test_journal_motion
    implicit none
    private
 
-   public :: collect_journal_motion
+   public :: collect_journal_motion, bearing_of, across
 
    !> Places of laws in `journal_law_names`
    integer, parameter :: short = 2, finite = 3

@@ -8,12 +8,13 @@ module test_journal_orbit
    use camroller_journal, only : journal_at_speed, journal_law_names, journal_t
    use camroller_journal_motion, only : moving_state
    use camroller_journal_orbit, only : bearing_load_t, find_orbit, orbit_t, place_at
-   use camroller_result, only : find_quantity, result_t
+   use camroller_result, only : result_t
    use camroller_run, only : run_case
    use camroller_shaft_simulation, only : shaft_simulation_t, start_shaft
-   use labelled_table, only : label_length, read_labelled_table
+   use labelled_table, only : label_length, read_table
    use reference_cases, only : point_speeds, point_viscosities, set_point, thesis_case
-   use table_file, only : read_table
+   use result_checks, only : series_of
+   use test_journal_motion, only : across, bearing_of
    implicit none
    private
 
@@ -62,22 +63,6 @@ contains
       end associate
    end subroutine swinging_load
 
-   !> Bearing by a law
-   function bearing_of(law) result(journal)
-      integer, intent(in) :: law
-      type(journal_t) :: journal
-
-      journal = journal_at_speed(law, diameter, width, clearance, oil, speed)
-   end function bearing_of
-
-   !> A vector turned by a right angle
-   function across(vector) result(turned)
-      real(wp), intent(in) :: vector(2)
-      real(wp) :: turned(2)
-
-      turned = [-vector(2), vector(1)]
-   end function across
-
    subroutine test_finite(error)
       type(error_type), allocatable, intent(out) :: error
       type(swinging_t) :: load
@@ -123,7 +108,7 @@ contains
       real(wp) :: place(2), force(2)
       integer :: i, hint, status
 
-      call read_labelled_table("journal_orbit_reference.csv", 7, names, rows, error)
+      call read_table("journal_orbit_reference.csv", 7, rows, error, names)
       if (allocated(error)) return
       journal = bearing_of(short)
       hint = 1
@@ -292,15 +277,6 @@ contains
       case%cam_bearings%by_bearing = .true.
    end function two_cams
 
-   !> A series
-   function series(result, name) result(values)
-      type(result_t), intent(in) :: result
-      character(len=*), intent(in) :: name
-      real(wp), allocatable :: values(:)
-
-      values = result%series_values(:, find_quantity(result%series, name))
-   end function series
-
    subroutine test_case(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
@@ -321,7 +297,7 @@ contains
       do i = 1, size(without%series)
          if (without%series(i)%scope(:7) == "bearing" .or. index(without%series(i)%name, "torque") == 1 .or. &
             & without%series(i)%name == "energy_residual") cycle
-         call check(error, maxval(abs(series(with, without%series(i)%name) - without%series_values(:, i))) <= 0.0_wp, &
+         call check(error, maxval(abs(series_of(with, without%series(i)%name) - without%series_values(:, i))) <= 0.0_wp, &
             & without%series(i)%name//" has changed")
          if (allocated(error)) return
       end do
@@ -329,17 +305,17 @@ contains
       all = 0.0_wp
       do i = 1, 3
          write (name, "(a, i0, a)") "bearing_", i, "_"
-         x = series(with, trim(name)//"eccentricity_x")
-         y = series(with, trim(name)//"eccentricity_y")
-         all = all + series(with, trim(name)//"torque")
-         call check(error, maxval(abs(hypot(x, y) - series(with, trim(name)//"eccentricity"))) < 1.0e-14_wp, "eccentricity")
+         x = series_of(with, trim(name)//"eccentricity_x")
+         y = series_of(with, trim(name)//"eccentricity_y")
+         all = all + series_of(with, trim(name)//"torque")
+         call check(error, maxval(abs(hypot(x, y) - series_of(with, trim(name)//"eccentricity"))) < 1.0e-14_wp, "eccentricity")
          if (allocated(error)) return
          ! the film gives way in its own time: it is thicker than at rest where the load is largest
-         call check(error, minval(series(with, trim(name)//"film_min")) > 1.05_wp*minval(series(without, trim(name)//"film_min")), &
-            & "the orbit is that of a journal at rest")
+         call check(error, minval(series_of(with, trim(name)//"film_min")) &
+            & > 1.05_wp*minval(series_of(without, trim(name)//"film_min")), "the orbit is that of a journal at rest")
          if (allocated(error)) return
       end do
-      call check(error, maxval(abs(all - series(with, "torque_bearings"))) < 1.0e-14_wp, "torques do not add up")
+      call check(error, maxval(abs(all - series_of(with, "torque_bearings"))) < 1.0e-14_wp, "torques do not add up")
       if (allocated(error)) return
       ! the bearings' torque is no smaller than shear of a film all round with the journal in the middle
       call check(error, minval(all) > 3.0_wp*0.99_wp*two_pi*point_viscosities(2)*point_speeds(2)*11.5e-3_wp**3*20.0e-3_wp &

@@ -9,7 +9,7 @@ module test_kinematics_reference
    use camroller_case, only : case_t
    use camroller_kinematics, only : linkage_t, position_t, rotation_names, new_linkage, evaluate_position
    use camroller_lift, only : lift_law_t, new_lift_law, evaluate_lift
-   use labelled_table, only : read_labelled_table, label_length
+   use labelled_table, only : label_length, read_table
    use closeness, only : check_scaled
    use reference_cases, only : thesis_case, skewed_case
    implicit none
@@ -60,7 +60,7 @@ contains
       type(position_t) :: position
       integer :: i, status
 
-      call read_labelled_table("kinematics_reference.csv", columns, names, rows, error)
+      call read_table("kinematics_reference.csv", columns, rows, error, names)
       if (allocated(error)) return
       if (size(names) < 40) call test_failed(error, "rows are missing")
       if (allocated(error)) return
@@ -121,7 +121,7 @@ contains
       real(wp) :: lift(0:3)
       integer :: i, k
 
-      call read_labelled_table("kinematics_reference.csv", columns, names, rows, error)
+      call read_table("kinematics_reference.csv", columns, rows, error, names)
       if (allocated(error)) return
       case = thesis_case()
       call new_lift_law(law, case%lift, failure)

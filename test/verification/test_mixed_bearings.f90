@@ -1,6 +1,6 @@
 !> Mixed friction of journal bearings, the pull of a belt, and series of single bearings.
 module test_mixed_bearings
-   use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
    use camroller_bearing_asperity, only : asperity_forces, bearing_asperity_t, bearing_state_t, carry_load, new_touch, &
       & tabulated_forces, touch_t
@@ -12,9 +12,11 @@ module test_mixed_bearings
    use camroller_quadrature, only : gauss_legendre
    use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
-   use labelled_table, only : label_length, read_labelled_table
+   use labelled_table, only : label_length, read_table
    use reference_cases, only : point_speeds, point_viscosities, set_point, thesis_case
    use unit_systems, only : angular_speed, force, length, pressure, scaled, torque, unit_systems_tried, viscosity
+   use lobe_cases, only : run
+   use result_checks, only : scalar_of, series_of
    implicit none
    private
 
@@ -62,7 +64,7 @@ contains
       type(bearing_state_t) :: state
       integer :: i, status
 
-      call read_labelled_table("bearing_reference.csv", 6, laws, rows, error)
+      call read_table("bearing_reference.csv", 6, rows, error, laws)
       if (allocated(error)) return
       call new_touch(touch, surfaces, clearance, failure)
       do i = 1, size(laws)
@@ -293,35 +295,6 @@ contains
       case%belt_pull = belt_pull_t(400.0_wp, -1.2_wp, -0.03_wp)
    end function hot_case
 
-   !> Run a case
-   subroutine run(case, result, error)
-      type(case_t), intent(in) :: case
-      type(result_t), intent(out) :: result
-      type(error_type), allocatable, intent(out) :: error
-      type(error_t), allocatable :: failure
-
-      call run_case(case, result, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-   end subroutine run
-
-   !> A series
-   function series(result, name) result(values)
-      type(result_t), intent(in) :: result
-      character(len=*), intent(in) :: name
-      real(wp), allocatable :: values(:)
-
-      values = result%series_values(:, find_quantity(result%series, name))
-   end function series
-
-   !> A scalar
-   function scalar(result, name) result(value)
-      type(result_t), intent(in) :: result
-      character(len=*), intent(in) :: name
-      real(wp) :: value
-
-      value = result%summary_values(find_quantity(result%summary, name))
-   end function scalar
-
    subroutine test_series(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
@@ -345,38 +318,38 @@ contains
       mean = 0.0_wp
       do i = 1, 3
          write (name, "(a, i0, a)") "bearing_", i, "_"
-         all = all + series(result, trim(name)//"torque")
-         x = x + series(result, trim(name)//"load_x") - series(unloaded, trim(name)//"load_x")
-         y = y + series(result, trim(name)//"load_y") - series(unloaded, trim(name)//"load_y")
-         mean = mean + scalar(result, "mean_"//trim(name)//"torque")
-         call check(error, maxval(abs(hypot(series(result, trim(name)//"load_x"), series(result, trim(name)//"load_y")) &
-            & - series(result, trim(name)//"load"))) < 1.0e-10_wp, "load")
+         all = all + series_of(result, trim(name)//"torque")
+         x = x + series_of(result, trim(name)//"load_x") - series_of(unloaded, trim(name)//"load_x")
+         y = y + series_of(result, trim(name)//"load_y") - series_of(unloaded, trim(name)//"load_y")
+         mean = mean + scalar_of(result, "mean_"//trim(name)//"torque")
+         call check(error, maxval(abs(hypot(series_of(result, trim(name)//"load_x"), series_of(result, trim(name)//"load_y")) &
+            & - series_of(result, trim(name)//"load"))) < 1.0e-10_wp, "load")
          if (allocated(error)) return
-         call check(error, maxval(abs(series(result, trim(name)//"film_min")/surfaces%roughness &
-            & - series(result, trim(name)//"film_ratio"))) < 1.0e-12_wp, "film ratio")
+         call check(error, maxval(abs(series_of(result, trim(name)//"film_min")/surfaces%roughness &
+            & - series_of(result, trim(name)//"film_ratio"))) < 1.0e-12_wp, "film ratio")
          if (allocated(error)) return
          call check(error, result%series(find_quantity(result%series, trim(name)//"load"))%scope == "bearing "//name(9:9), "scope")
          if (allocated(error)) return
          ! extremes stand at no output angle but near one
-         without = series(result, trim(name)//"film_min")
-         call check(error, scalar(result, "min_"//trim(name)//"film_min") <= minval(without) .and. &
-            & scalar(result, "max_"//trim(name)//"film_min") >= maxval(without) .and. &
-            & scalar(result, "min_"//trim(name)//"film_min") > 0.98_wp*minval(without), "extremes")
+         without = series_of(result, trim(name)//"film_min")
+         call check(error, scalar_of(result, "min_"//trim(name)//"film_min") <= minval(without) .and. &
+            & scalar_of(result, "max_"//trim(name)//"film_min") >= maxval(without) .and. &
+            & scalar_of(result, "min_"//trim(name)//"film_min") > 0.98_wp*minval(without), "extremes")
          if (allocated(error)) return
       end do
-      call check(error, maxval(abs(all - series(result, "torque_bearings"))) < 1.0e-14_wp, "torques do not add up")
+      call check(error, maxval(abs(all - series_of(result, "torque_bearings"))) < 1.0e-14_wp, "torques do not add up")
       if (allocated(error)) return
       ! each is a mean to the tolerance of the cycle over panels of its own
-      call check(error, abs(mean/scalar(result, "mean_torque_bearings") - 1.0_wp) < 1.0e-6_wp, "means do not add up")
+      call check(error, abs(mean/scalar_of(result, "mean_torque_bearings") - 1.0_wp) < 1.0e-6_wp, "means do not add up")
       if (allocated(error)) return
       ! the belt presses on the shaft as a whole, and lifts it from the second bearing
       call check(error, maxval(abs(x - 400.0_wp*cos(1.2_wp))) < 1.0e-10_wp .and. maxval(abs(y + 400.0_wp*sin(1.2_wp))) &
          & < 1.0e-10_wp, "the belt's force")
       if (allocated(error)) return
-      x = series(result, "bearing_2_load_x") - series(unloaded, "bearing_2_load_x")
+      x = series_of(result, "bearing_2_load_x") - series_of(unloaded, "bearing_2_load_x")
       call check(error, maxval(abs(x + 200.0_wp*cos(1.2_wp))) < 1.0e-10_wp, "the belt's lever")
       if (allocated(error)) return
-      call check(error, scalar(result, "max_bearing_1_torque_boundary") > 0.0_wp, "asperities never touch")
+      call check(error, scalar_of(result, "max_bearing_1_torque_boundary") > 0.0_wp, "asperities never touch")
    end subroutine test_series
 
    subroutine test_bits(error)
@@ -396,7 +369,7 @@ contains
          do i = 1, size(without%summary)
             ! with more means and extremes their worst errors are others
             if (index(without%summary(i)%name, "estimated_error_of_") == 1) cycle
-            associate (one => scalar(with, without%summary(i)%name), other => without%summary_values(i))
+            associate (one => scalar_of(with, without%summary(i)%name), other => without%summary_values(i))
                call check(error, one >= other .and. one <= other, without%summary(i)%name)
             end associate
             if (allocated(error)) return
@@ -417,7 +390,7 @@ contains
       call run(case, with, error)
       if (allocated(error)) return
       ! round-off of the powers that are summed up, as without these effects
-      call check(error, scalar(with, "relative_energy_residual") < 1.0e-11_wp, "energy")
+      call check(error, scalar_of(with, "relative_energy_residual") < 1.0e-11_wp, "energy")
       if (allocated(error)) return
       do k = 1, 2
          case = hot_case()
@@ -425,13 +398,13 @@ contains
          if (k == 2) deallocate (case%belt_pull)
          call run(case, without, error)
          if (allocated(error)) return
-         call check(error, scalar(without, "mean_torque_bearings") < 0.999_wp*scalar(with, "mean_torque_bearings"), &
+         call check(error, scalar_of(without, "mean_torque_bearings") < 0.999_wp*scalar_of(with, "mean_torque_bearings"), &
             & "the bearings do not change")
          if (allocated(error)) return
          do i = 1, size(without%series)
             if (without%series(i)%scope(:7) == "bearing" .or. any(without%series(i)%name == [character(len=16) :: &
                & "torque_bearings", "torque_friction", "torque_drive", "energy_residual"])) cycle
-            call check(error, maxval(abs(series(with, without%series(i)%name) - without%series_values(:, i))) <= 0.0_wp, &
+            call check(error, maxval(abs(series_of(with, without%series(i)%name) - without%series_values(:, i))) <= 0.0_wp, &
                & without%series(i)%name//" has changed")
             if (allocated(error)) return
          end do

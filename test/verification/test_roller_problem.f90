@@ -21,7 +21,7 @@ module test_roller_problem
    use camroller_ode_problem, only : words_length
    use camroller_ode_explicit, only : explicit_method_t, new_explicit_method
    use camroller_trajectory, only : trajectory_t
-   use labelled_table, only : read_labelled_table, label_length
+   use labelled_table, only : label_length, read_table
    use closeness, only : check_close
    use reference_cases, only : thesis_case, make_model
    implicit none
@@ -72,7 +72,7 @@ contains
       real(wp) :: loss
       integer :: i
 
-      call read_labelled_table("roller_problem_reference.csv", 4, names, rows, error)
+      call read_table("roller_problem_reference.csv", 4, rows, error, names)
       if (allocated(error)) return
       if (size(names) /= 3) call test_failed(error, "three cases are expected")
       do i = 1, size(names)

@@ -5,7 +5,7 @@ module test_zhao_maietta_chang
    use camroller_greenwood_tripp, only : integral_2, integral_5_2
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
       & asperity_area_function, asperity_law_names, law_zhao_maietta_chang, smallest_product
-   use table_file, only : read_table
+   use labelled_table, only : read_table
    implicit none
    private
 
