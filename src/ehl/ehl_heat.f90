@@ -10,7 +10,7 @@ module camroller_ehl_heat
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_newton, only : ehl_state_t, solve_newton
    use camroller_ehl_problem, only : ehl_problem_t
-   use camroller_ehl_reynolds, only : ehl_fields_t, storage_t
+   use camroller_ehl_reynolds, only : ehl_fields_t
    use camroller_lapack, only : dgesv
    implicit none
    private
@@ -38,7 +38,7 @@ module camroller_ehl_heat
 contains
 
    !> Bring a solution to the temperature that its heat keeps; one without heat stays as it is.
-   pure subroutine warm_film(problem, grid, state, tolerance, converged, storage)
+   pure subroutine warm_film(problem, grid, state, tolerance, converged)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> The grid
@@ -49,8 +49,6 @@ contains
       real(wp), intent(in) :: tolerance
       !> Was it reached?
       logical, intent(out) :: converged
-      !> What was stored before; absent: nothing changes with time
-      type(storage_t), intent(in), optional :: storage
 
       type(ehl_energy_t) :: energy
       type(turns_t) :: turns
@@ -71,7 +69,7 @@ contains
             converged = maxval(abs(fields%by_rise*(fields%rise - old))) <= tolerance
             if (converged) return
             call mix_turns(turns, fields%by_rise*(fields%rise - old), fields%rise)
-            call solve_newton(problem, grid, state, tolerance, newton_iterations, converged, storage)
+            call solve_newton(problem, grid, state, tolerance, newton_iterations, converged)
             if (.not. converged) return
          end do
          converged = .false.

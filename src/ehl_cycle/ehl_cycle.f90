@@ -31,8 +31,6 @@ module camroller_ehl_cycle
       integer :: nodes = 129
       !> Error of a step, of the film over itself and of the sliding speed over that of rolling [-]
       real(wp) :: step_error = 1.0e-3_wp
-      !> Longest step [rad]
-      real(wp) :: longest_step = degree
       !> Does the film remember?
       logical :: is_transient = .true.
       !> Are profiles kept?
@@ -53,8 +51,10 @@ module camroller_ehl_cycle
 
    !> First angle of the cycle and run-up before it [rad]
    real(wp), parameter :: start = -pi, run_up = 20.0_wp*degree
-   !> First and shortest step, and that below which the error is the noise of the nodes that the end of the film passes [rad]
-   real(wp), parameter :: first_step = 0.1_wp*degree, shortest_step = 1.0e-6_wp*degree, smooth_step = 2.0e-3_wp*degree
+   !> First, longest and shortest step, and that below which the error is the noise of the nodes that the end of the film passes
+   !> [rad]
+   real(wp), parameter :: first_step = 0.1_wp*degree, longest_step = degree, shortest_step = 1.0e-6_wp*degree, &
+      & smooth_step = 2.0e-3_wp*degree
    !> Two angles that are the same [rad]; part of a piece between two stops that its first step takes at most [-]
    real(wp), parameter :: angle_tolerance = 1.0e-12_wp, least_part = 0.0625_wp
    !> Difference of start and end over the error of a step [-]; cycles to give up after
@@ -109,7 +109,7 @@ contains
       do while (cycle%tried < most_steps)
          cycle%tried = cycle%tried + 1
          saved = state
-         step = bounded_step(min(step, options%longest_step), history(1)%angle, stops)
+         step = bounded_step(min(step, longest_step), history(1)%angle, stops)
          march%slip_tolerance = round_part*options%step_error*scale
          call make_step(model, march, history(:min(known, 2)), history(1)%angle + step, state, now, converged)
          excess = huge(1.0_wp)

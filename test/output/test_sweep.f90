@@ -22,9 +22,9 @@ module test_sweep
 
    !> Takes one scalar of each case
    type, extends(sink_t) :: torques_t
-      !> The scalar [N m], and how often each case came
+      !> The scalar [N m], how often each case came, and how many rows its series have
       real(wp) :: torques(6) = 0.0_wp
-      integer :: times(6) = 0
+      integer :: times(6) = 0, rows(6) = 0
    contains
       procedure :: take => take_torque
    end type torques_t
@@ -47,6 +47,7 @@ contains
 
       testsuite = [ &
          new_unittest("a sink of the caller has every case once, with the bits of a case alone", sink_has_every_case), &
+         new_unittest("a sink of the caller has series where they are asked for, until its monitor stops", series_until_stopped), &
          new_unittest("a file made directly and one of part files hold the same", both_ways_agree), &
          new_unittest("a sweep that was stopped is continued", stopped_and_continued) &
          ]
@@ -79,6 +80,7 @@ contains
 
       self%times(number) = self%times(number) + 1
       if (outcome%status /= 0) return
+      if (allocated(outcome%series)) self%rows(number) = size(outcome%series, 1)
       self%torques(number) = outcome%summary(find_quantity(layout%summary, torque))
    end subroutine take_torque
 
@@ -113,7 +115,7 @@ contains
          call test_failed(error, failure%message)
          return
       end if
-      call check(error, all(sink%times == 1), "a case came not once")
+      call check(error, all(sink%times == 1) .and. all(sink%rows == 0), "a case came not once, or with series")
       do i = 1, sweep_size(deck%sweep)
          if (allocated(error)) return
          call make_sweep_case(deck, i, case, failure)
@@ -124,6 +126,24 @@ contains
       end do
       if (.not. allocated(error)) call check(error, count(abs(sink%torques) > 0.0_wp), 4)
    end subroutine sink_has_every_case
+
+   subroutine series_until_stopped(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(deck_t) :: deck
+      type(torques_t) :: sink
+      type(impatient_t) :: monitor
+      type(error_t), allocatable :: failure
+
+      call get_deck(deck, failure)
+      if (.not. allocated(failure)) call sweep_cases(deck, sink, failure, threads=1, with_series=.true., monitor=monitor)
+      call check(error, allocated(failure), "it was not stopped")
+      if (allocated(error)) return
+      call check(error, failure%kind, kind_unfinished)
+      if (allocated(error)) return
+      ! Ten degrees from row to row
+      call check(error, sum(sink%times) == monitor%done .and. monitor%done < 6 .and. count(sink%rows == 36) > 0, "no series")
+   end subroutine series_until_stopped
 
    !> Torques of the cases of a file, which is removed.
    subroutine read_torques(path, torques, failure)
