@@ -179,8 +179,7 @@ contains
    !>
    !> The torque is the power that film and asperities turn into heat over the speed: shear of the film, which is Petroff's over
    !> `sqrt(1 - e^2)`, the work of the film's load on the squeezed film, and boundary friction. With the journal at rest the second
-   !> part is
-   !> the half moment of the load.
+   !> part is the half moment of the load.
    pure subroutine moving_state(journal, place, load, state, touch)
       !> The bearing
       type(journal_t), intent(in) :: journal

@@ -1,8 +1,7 @@
 !> From settings to a case.
 !>
-!> In: settings that hold together, and the tables they name. Out: `case_t` in SI. A component whose key has
-!> no
-!> value keeps the default of its type.
+!> In: settings that hold together, and the tables they name. Out: `case_t` in SI. A component whose key has no value keeps the
+!> default of its type.
 module camroller_deck_case
    use camroller_kinds, only : pi, wp
    use camroller_case, only : case_t

@@ -45,11 +45,11 @@ module camroller_effect_train
 
    !> Difference of two trains at the angles of a survey
    type :: train_change_t
-      !> Moments about the pivot by which the load differs: in the mean over what an angle stands for, and the largest there [N m]
+      !> Moments about the pivot by which the load differs in the part of the cycle about each angle: mean and largest [N m]
       real(wp) :: mean(points), largest(points)
       !> Mean torque of losses [N m]
       real(wp) :: loss
-      !> Difference of the load over the load, means over the cycle [-]
+      !> Mean difference of the load in the cycle, over the mean load [-]
       real(wp) :: share
    end type train_change_t
 

@@ -1,7 +1,7 @@
 !> Contacts that give way: cam and roller in series with the finger's bending; pad, seat and stops as one-sided springs, each with
 !> a damping that is proportional to the force it carries.
 !>
-!> Layer: flexible. In: approaches and their rates. Out: forces with derivatives, stored energies, restitution.
+!> In: approaches and their rates. Out: forces with derivatives, stored energies, restitution.
 !> Sources: Palmgren (1959) for the approach of a line contact, 3.84e-5 Q^0.9/l^0.8 in mm and N for steel; Hunt and Crossley,
 !> J. Applied Mechanics 42 (1975) 440, for the damping.
 module camroller_contact_compliance

@@ -1,6 +1,6 @@
 !> What a flexible train is made of: the stiffness and damping of its contacts, its spring's modes, its adjuster, its masses.
 !>
-!> Layer: flexible. In: what a deck gives. Out: constants for the equations of motion.
+!> In: what a deck gives. Out: constants for the equations of motion.
 module camroller_flexible_parts
    use camroller_kinds, only : wp
    use camroller_contact_compliance, only : line_compliance, damping_of_restitution

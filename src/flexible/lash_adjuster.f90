@@ -1,6 +1,6 @@
 !> A hydraulic lash adjuster: plunger, chamber of aerated oil, leak along the plunger, check valve, stops.
 !>
-!> Layer: flexible. In: dimensions, pressure, travel and speed of the plunger. Out: bulk modulus, flows, force, with derivatives;
+!> In: dimensions, pressure, travel and speed of the plunger. Out: bulk modulus, flows, force, with derivatives;
 !> energies. Pressures are gauge. Source: Merritt, Hydraulic Control Systems (1967): flow in an annulus and through an orifice, bulk
 !> modulus of oil that holds air; the air's pole at p = -p_a stands in for cavitation.
 module camroller_lash_adjuster
@@ -192,7 +192,7 @@ contains
       real(wp) :: difference, place, place_slope
       ! Orifice at full opening: speed [m/s], derivative over the difference [m/(s Pa)]
       real(wp) :: speed, speed_slope
-      ! Volume [-], its derivative [1/Pa], area [m^2], bulk modulus [Pa], its derivative [-]
+      ! Volume of oil over that at ambient pressure [-], its derivative [1/Pa]; area [m^2]; bulk modulus [Pa], its derivative [-]
       real(wp) :: volume, volume_slope, area, modulus, slope
 
       associate (given => adjuster%given)

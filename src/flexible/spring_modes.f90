@@ -1,7 +1,7 @@
 !> A valve spring with mass: a bar whose lower end is fixed and whose upper end moves with the valve, as its static shape and the
 !> modes of a bar with both ends held.
 !>
-!> Layer: flexible. In: stiffness, mass, number of modes. Out: constants, forces at both ends, energies. Source: Wahl, Mechanical
+!> In: stiffness, mass, number of modes. Out: constants, forces at both ends, energies. Source: Wahl, Mechanical
 !> Springs (1963), for the surge of helical springs; projection of the wave equation on `u = xi x + sum q_n sin(n pi xi)`.
 module camroller_spring_modes
    use camroller_kinds, only : wp, pi

@@ -1,6 +1,6 @@
 !> Where cam and roller are nearest when the roller's centre is off the path that a rigid train gives it.
 !>
-!> Layer: flexible_cycle. In: model, cam angle, place and speed of the pivot and of the finger. Out: the nearest point of the pitch
+!> In: model, cam angle, place and speed of the pivot and of the finger. Out: the nearest point of the pitch
 !> curve, normal, approach and its rate, speed of the roller's centre over the cam.
 !>
 !> Complex plane with the pivot at rest at zero and the cam's centre at D. The roller's centre is z from the cam's centre. The pitch

@@ -1,6 +1,6 @@
 !> Forces and accelerations of a flexible train.
 !>
-!> Layer: flexible_cycle. In: model, cam angle, state. Out: everything at that state, and its rate of change with the cam angle. The
+!> In: model, cam angle, state. Out: everything at that state, and its rate of change with the cam angle. The
 !> load is explicit: it follows from the approach of cam and roller, and film, load share, traction and rolling resistance from it.
 !>
 !> Order of the state: finger's angle and rate, valve's lift and speed, sliding speed; with an adjuster its travel, speed and

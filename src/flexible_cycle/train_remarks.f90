@@ -1,6 +1,6 @@
 !> Remarks on the motion of a flexible train: contact, joint, seat, lift, plunger, period.
 !>
-!> Layer: flexible_cycle. In: the solution of a lobe's train. Out: remarks, or an error where the case forbids what happens.
+!> In: the solution of a lobe's train. Out: remarks, or an error where the case forbids what happens.
 module camroller_train_remarks
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t, kind_domain, raise

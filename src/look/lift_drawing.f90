@@ -167,7 +167,8 @@ contains
       end do
    end subroutine sample
 
-   !> Rows of a table and their divided differences, each at the middle of its rows.
+   !> Rows of a lift table, and their divided differences of the orders 1 to 3, each drawn in the middle of the rows that it is made
+   !> of.
    subroutine take_differences(lift, curves)
       !> The lift
       type(lift_t), intent(in) :: lift

@@ -225,7 +225,7 @@ contains
       end do
       single = size(values) - bearing_series_count(solved%case) + 1
       do series = 1, size(values)
-         ! Not before: what single bearings ask for changes no bit of a torque
+         ! Once the torques are done: the rows that single bearings add change no bit of an extreme of theirs
          if (series == single) call add_small_loads(solved, list, samples, error)
          if (allocated(error)) return
          if (series == residual) then
