@@ -59,7 +59,8 @@ contains
       use camroller_ehl_problem, only : ehl_contact_t
       use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
       use camroller_ehl_films, only : ehl_films_t
-      use bench_clock, only : seconds_used, median
+      use camroller_sorting, only : median
+      use bench_clock, only : seconds_used
       use bench_contacts, only : contact_of_kind
       use bench_lapack_clock, only : lapack_t, start_lapack_clock, read_lapack_clock
       !> Nodes

@@ -17,7 +17,8 @@ contains
       use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
       use camroller_ehl_films, only : ehl_films_t
       use bench_circumstances, only : print_circumstances
-      use bench_clock, only : seconds_used, median
+      use camroller_sorting, only : median
+      use bench_clock, only : seconds_used
       use bench_contacts, only : contact_of_kind
 
       integer, parameter :: repeats = 15, sizes(5) = [65, 129, 257, 513, 1025]

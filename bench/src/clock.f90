@@ -1,11 +1,11 @@
-!> Time that this process has used, and the median of repeated measurements.
+!> Time that this process has used.
 module bench_clock
    use, intrinsic :: iso_c_binding, only : c_int, c_long
    use camroller_kinds, only : wp
    implicit none
    private
 
-   public :: seconds_used, median
+   public :: seconds_used
 
    !> As POSIX has it
    type, bind(c) :: timespec_t
@@ -42,23 +42,5 @@ contains
       status = clock_gettime(process_clock, time)
       seconds = real(time%seconds, wp) + 1.0e-9_wp*real(time%nanoseconds, wp)
    end function seconds_used
-
-   !> Median, lower of the two middle ones where the number is even.
-   pure function median(values) result(middle)
-      !> Values, one at least [any]
-      real(wp), intent(in) :: values(:)
-      !> Median [any]
-      real(wp) :: middle
-
-      integer :: i
-
-      middle = values(1)
-      do i = 1, size(values)
-         if (count(values < values(i)) > (size(values) - 1)/2) cycle
-         if (count(values <= values(i)) <= (size(values) - 1)/2) cycle
-         middle = values(i)
-         return
-      end do
-   end function median
 
 end module bench_clock

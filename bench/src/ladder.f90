@@ -4,7 +4,8 @@ module bench_ladder
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_ode, only : counters_t
-   use bench_clock, only : seconds_used, median
+   use camroller_sorting, only : median
+   use bench_clock, only : seconds_used
    use bench_tasks, only : task_t, set_accuracy, measure_errors
    use bench_own, only : own_t, new_own, run_own
    use bench_cvode, only : cvode_t, new_cvode, run_cvode, free_cvode

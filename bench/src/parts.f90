@@ -10,7 +10,8 @@ module bench_parts
    use camroller_state, only : state_t, evaluate_loading, evaluate_spin
    use camroller_events, only : find_stops
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
-   use bench_clock, only : seconds_used, median
+   use camroller_sorting, only : median
+   use bench_clock, only : seconds_used
    use bench_tasks, only : task_t, set_accuracy
    use bench_own, only : own_t, new_own, run_own
    implicit none

@@ -4,7 +4,7 @@
 !> A task begins at its periodic state (the roller problem: where its statement begins) and asks for the state at given angles.
 !> Every solver gets the same compiled right-hand side, stops, largest step, error allowed per component and output angles.
 module bench_tasks
-   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_kinds, only : wp, pi, two_pi, celsius_zero
    use camroller_error, only : error_t, add_context
    use camroller_case, only : case_t, numerics_t
    use camroller_deck, only : deck_t, override_t, read_deck, make_sweep_case
@@ -186,7 +186,7 @@ contains
          call make_sweep_case(deck, i, case, error)
          if (allocated(error)) return
          write (tasks(i)%name, "(a, '_', i0, '_', i0)") prefix, nint(case%operating_point%speed*60.0_wp/two_pi), &
-            & nint(case%operating_point%oil_temperature - 273.15_wp)
+            & nint(case%operating_point%oil_temperature - celsius_zero)
          call add_point(tasks(i), case, error)
          call add_context(error, trim(tasks(i)%name))
          if (allocated(error)) return

@@ -1,12 +1,13 @@
-!> Real kind, mathematical constants and the gas constant, used everywhere.
+!> Real kind, mathematical and physical constants, used everywhere.
 !>
-!> In: nothing. Out: the working precision `wp`, `pi`, `gas_constant`.
+!> In: nothing. Out: the working precision `wp`, `pi`, `gas_constant`; no number.
 module camroller_kinds
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : real64
    implicit none
    private
 
-   public :: wp, pi, two_pi, degree, gas_constant
+   public :: wp, pi, two_pi, degree, per_minute, celsius_zero, gas_constant, not_a_number
 
    !> Working precision of every real in the library
    integer, parameter :: wp = real64
@@ -16,7 +17,21 @@ module camroller_kinds
    real(wp), parameter :: two_pi = 2.0_wp*pi
    !> One degree of arc [rad]
    real(wp), parameter :: degree = pi/180.0_wp
+   !> One radian a second in revolutions a minute [rev/min over rad/s]
+   real(wp), parameter :: per_minute = 60.0_wp/two_pi
+   !> Zero of the Celsius scale [K]
+   real(wp), parameter :: celsius_zero = 273.15_wp
    !> Gas constant, exact since 2019 [J/(mol K)]
    real(wp), parameter :: gas_constant = 8.31446261815324_wp
+
+contains
+
+   !> What stands where there is no number.
+   pure function not_a_number() result(number)
+      !> It [any]
+      real(wp) :: number
+
+      number = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function not_a_number
 
 end module camroller_kinds

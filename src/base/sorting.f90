@@ -1,12 +1,12 @@
 !> Numbers in rising order.
 !>
-!> In: numbers. Out: the same sorted, or the order in which they rise.
+!> In: numbers. Out: the same sorted, the order in which they rise, or their median.
 module camroller_sorting
    use camroller_kinds, only : wp
    implicit none
    private
 
-   public :: find_order, sort
+   public :: find_order, sort, median
 
 contains
 
@@ -81,5 +81,20 @@ contains
          values(j + 1) = value
       end do
    end subroutine sort
+
+   !> Median, the mean of the two in the middle where their number is even.
+   pure function median(values) result(middle)
+      !> Numbers, one or more [any]
+      real(wp), intent(in) :: values(:)
+      !> Their median [any]
+      real(wp) :: middle
+
+      integer :: order(size(values))
+
+      call find_order(values, order)
+      associate (n => size(values))
+         middle = 0.5_wp*(values(order((n + 1)/2)) + values(order(n/2 + 1)))
+      end associate
+   end function median
 
 end module camroller_sorting

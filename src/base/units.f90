@@ -3,7 +3,7 @@
 !> In: a key such as `base_radius_mm` or the name of a unit. Out: the conversion from that unit to SI and back. A key whose last
 !> words are not a known unit is in SI, or has no unit.
 module camroller_units
-   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_kinds, only : wp, pi, two_pi, celsius_zero
    implicit none
    private
 
@@ -41,7 +41,7 @@ module camroller_units
       unit_t("deg", "degree", pi, 180.0_wp, 0.0_wp), &
       unit_t("mrad", "mrad", 1.0_wp, 1.0e3_wp, 0.0_wp), &
       unit_t("rpm", "rpm", two_pi, 60.0_wp, 0.0_wp), &
-      unit_t("degC", "degC", 1.0_wp, 1.0_wp, 273.15_wp), &
+      unit_t("degC", "degC", 1.0_wp, 1.0_wp, celsius_zero), &
       unit_t("s", "s", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("m_s", "m/s", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("s_m", "s/m", 1.0_wp, 1.0_wp, 0.0_wp), &

@@ -4,8 +4,7 @@
 !> once, its quantities at their places among those of all cases; how many failed, and their remarks. Quantities stand in the order
 !> in which the cases bring them, so that the file depends on the cases alone.
 module camroller_case_writer
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, not_a_number
    use camroller_error, only : error_t, raise
    use camroller_case_record, only : case_outcome_t
    use camroller_case_sink, only : sink_t
@@ -190,13 +189,5 @@ contains
       call close_profiles(writer%profiles)
       call abandon_output(writer%file)
    end subroutine abandon_cases
-
-   !> Not-a-number.
-   pure function not_a_number() result(number)
-      !> The number [-]
-      real(wp) :: number
-
-      number = ieee_value(1.0_wp, ieee_quiet_nan)
-   end function not_a_number
 
 end module camroller_case_writer

@@ -2,9 +2,8 @@
 !>
 !> In: records, a result file. Out: which quantities differ, in how many cases, by how much.
 module camroller_comparison_sink
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int64
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, not_a_number
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_case_record, only : case_outcome_t, take_case, take_header
    use camroller_case_sink, only : sink_t
@@ -391,14 +390,6 @@ contains
          difference%case_number = case_number
       end associate
    end subroutine compare
-
-   !> Not-a-number.
-   pure function not_a_number() result(number)
-      !> The number [-]
-      real(wp) :: number
-
-      number = ieee_value(1.0_wp, ieee_quiet_nan)
-   end function not_a_number
 
    !> Difference of two numbers relative to the larger one.
    pure function relative_difference(some, other) result(difference)

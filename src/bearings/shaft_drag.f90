@@ -3,7 +3,7 @@
 !> In: a table over speed and temperature, as it was measured; speed and temperature. Out: the torque. Formulas for it do not carry
 !> from one seal or drive to another, so there is none here.
 module camroller_shaft_drag
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp, celsius_zero, per_minute
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
    use camroller_number_text, only : number_text
    implicit none
@@ -68,7 +68,7 @@ contains
       call find_place(drag%temperature_points, temperature, j, next_j, across)
       if (min(i, j) == 0) then
          call raise(error, kind_domain, "the torque of seals and drive is not known at "// &
-            & number_text(60.0_wp*abs(speed)/two_pi, 4)//" rev/min and "//number_text(temperature - 273.15_wp, 4)// &
+            & number_text(abs(speed)*per_minute, 4)//" rev/min and "//number_text(temperature - celsius_zero, 4)// &
             & " degC, which the table of &shaft_drag does not cover")
          return
       end if

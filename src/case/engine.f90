@@ -2,7 +2,7 @@
 !>
 !> In: what a case says. Out: phases of cams, crank angles, the speed in words.
 module camroller_engine
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp, two_pi, per_minute
    use camroller_number_text, only : append_number
    implicit none
    private
@@ -68,10 +68,10 @@ contains
 
       text = ""
       if (turns > 0.0_wp) then
-         call append_number(text, turns*speed*60.0_wp/two_pi, digits)
+         call append_number(text, turns*speed*per_minute, digits)
          text = text//" rev/min of the crankshaft"
       else
-         call append_number(text, speed*60.0_wp/two_pi, digits)
+         call append_number(text, speed*per_minute, digits)
          text = text//" rev/min"
       end if
    end subroutine write_speed

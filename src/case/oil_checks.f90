@@ -10,8 +10,9 @@ module camroller_oil_checks
    use camroller_boundary_law, only : boundary_law_names, boundary_table
    use camroller_case, only : case_t
    use camroller_error, only : error_t
-   use camroller_kinds, only : wp
-   use camroller_lubricant, only : get_oil, law_barus, law_direct, lubricant_t, oil_t, pressure_law_names, temperature_law_names
+   use camroller_kinds, only : wp, celsius_zero
+   use camroller_lubricant, only : get_oil, law_barus, law_direct, lubricant_t, oil_t, pressure_law_names, sheet_temperatures, &
+      & temperature_law_names
    use camroller_number_text, only : number_text
    implicit none
    private
@@ -26,9 +27,7 @@ module camroller_oil_checks
    real(wp), parameter :: far_from_points = 20.0_wp
    !> The same for a data sheet, with two points 60 K apart and Walther's straight line, which passes less than three times their
    !> errors on at 50 K beyond them [K]
-   real(wp), parameter :: far_from_sheet = 50.0_wp, sheet_temperatures(2) = [313.15_wp, 373.15_wp]
-   !> Zero of the Celsius scale [K]
-   real(wp), parameter :: celsius_zero = 273.15_wp
+   real(wp), parameter :: far_from_sheet = 50.0_wp
 
 contains
 

@@ -16,6 +16,7 @@ module camroller_lubricant
 
    public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names, law_barus, law_cameron, law_roelands, law_direct
    public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity, density_at, pressure_limit
+   public :: sheet_temperatures
 
    !> Viscosity over temperature
    character(len=*), parameter :: temperature_law_names(*) = [character(len=name_length) :: "direct", "vogel", "walther", &

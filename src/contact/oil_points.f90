@@ -2,7 +2,7 @@
 !>
 !> In: temperatures and what was measured there. Out: the same at any temperature. Source: Vogel (1921).
 module camroller_oil_points
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, celsius_zero
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
    use camroller_number_text, only : fixed_text
    implicit none
@@ -47,7 +47,7 @@ contains
       level = logs(1) - slope/(temperatures(1) - pole)
       if (temperature <= pole + 1.0_wp) then
          call raise(error, kind_domain, "lubricant: the oil temperature is at or below the pole of the Vogel law at "// &
-            & fixed_text(pole - 273.15_wp, 1)//" degC")
+            & fixed_text(pole - celsius_zero, 1)//" degC")
          return
       end if
       viscosity = exp(level + slope/(temperature - pole))

@@ -33,7 +33,7 @@ module camroller_deck_keys
    use camroller_output_options, only : output_options_t, compression_names
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
       & add_numbers, add_integers, group_required, group_standard, group_effect, anything, positive, &
-      & not_negative, proper_fraction, up_to, from_to, one_or_more, range_t
+      & not_negative, proper_fraction, up_to, from_to, one_or_more, range_t, above_absolute_zero
    implicit none
    private
 
@@ -99,7 +99,7 @@ contains
       call add_group(schema, "operating_point", group_required, "speed and temperature")
       call add_number(schema, "speed_rpm", positive, "speed of the camshaft, or with &engine of the crankshaft", &
          & example="600")
-      call add_number(schema, "oil_temperature_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
+      call add_number(schema, "oil_temperature_degC", above_absolute_zero, &
          & "temperature of the oil at the inlet of every contact", example="60")
    end subroutine add_case_keys
 
@@ -273,7 +273,7 @@ contains
          & "viscosity as a function of temperature: given directly, by a law through given points, or as on the oil's data sheet")
       call add_number(schema, "viscosity_Pa_s", positive, "dynamic viscosity at the oil temperature", &
          & example="0.0305", is_optional=.true.)
-      call add_numbers(schema, "temperature_points_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
+      call add_numbers(schema, "temperature_points_degC", above_absolute_zero, &
          & "temperatures of the given points, increasing; 'vogel' three, 'walther' two", is_optional=.true.)
       call add_numbers(schema, "viscosity_points_Pa_s", positive, "dynamic viscosities of the given points, falling", &
          & is_optional=.true.)
@@ -299,7 +299,7 @@ contains
          & "pressure-viscosity coefficient at ambient pressure; where not given from roelands_index, or without that, with "// &
          & "'walther' and 'data_sheet', estimated by So and Klaus (1980)", example="22", &
          & is_optional=.true.)
-      call add_numbers(schema, "pressure_viscosity_temperatures_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
+      call add_numbers(schema, "pressure_viscosity_temperatures_degC", above_absolute_zero, &
          & "temperatures of the pressure-viscosity coefficients given as points, increasing, two or more", is_optional=.true.)
       call add_numbers(schema, "pressure_viscosity_points_per_GPa", positive, &
          & "pressure-viscosity coefficients at these temperatures, not rising, in the place of one coefficient; between and "// &

@@ -5,9 +5,8 @@
 !> of the unit cube is spread over the ranges. A deck without &sweep is a sweep of one case. Every case is found by its number
 !> alone, and nothing is held for cases but the lists that the deck gives.
 module camroller_deck_sweep
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int64
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, not_a_number
    use camroller_names, only : name_length
    use camroller_quotes, only : without_quotes
    use camroller_units, only : unit_name_length
@@ -410,7 +409,7 @@ contains
       integer :: i
 
       associate (cells => sweep%measured(column)%values)
-         allocate (numbers(cells%count), source=ieee_value(1.0_wp, ieee_quiet_nan))
+         allocate (numbers(cells%count), source=not_a_number())
          do i = 1, size(numbers)
             text = text_at(cells, i)
             if (text /= nothing_measured) read (text, *) numbers(i)

@@ -7,7 +7,7 @@ module camroller_deck_asperity
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group, demand
    use camroller_deck_schema, only : schema_t, add_group, add_number, group_effect, not_negative, positive, proper_fraction, &
-      & range_t
+      & above_absolute_zero
    use camroller_film, only : film_law_names, law_masjedi_khonsari_rough
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
@@ -32,7 +32,7 @@ contains
          & example="0.06")
       call add_number(schema, "coverage", proper_fraction, "part of the surfaces that it covers at the reference temperature", &
          & example="0.7")
-      call add_number(schema, "reference_temperature_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
+      call add_number(schema, "reference_temperature_degC", above_absolute_zero, &
          & "temperature that the coverage is given for", example="60")
       call add_number(schema, "adsorption_heat_kJ_mol", not_negative, "heat that it gives off as it is adsorbed; more of it "// &
          & "means that less is left when hot", example="40")

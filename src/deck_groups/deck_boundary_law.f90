@@ -6,7 +6,7 @@ module camroller_deck_boundary_law
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group, demand
    use camroller_deck_schema, only : schema_t, add_group, add_name, add_number, add_numbers, anything, group_effect, not_negative, &
-      & positive, range_t
+      & positive, above_absolute_zero
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, get_word, has_group, is_known, take
@@ -25,7 +25,6 @@ contains
       type(schema_t), intent(inout) :: schema
 
       type(boundary_law_t) :: standard
-      type(range_t), parameter :: above_zero = range_t(smallest=-273.15_wp, with_smallest=.false.)
 
       call add_group(schema, "boundary_law", group_effect, &
          & "friction coefficient of touching asperities over sliding speed and temperature, in place of a constant one")
@@ -33,7 +32,7 @@ contains
          & "logarithm of the speed and straight line of the temperature, or a table over both")
       call add_number(schema, "reference_speed_m_s", positive, "sliding speed at which the coefficient is that of &asperity", &
          & is_optional=.true., example="0.1")
-      call add_number(schema, "reference_temperature_degC", above_zero, "temperature at which it is", is_optional=.true., &
+      call add_number(schema, "reference_temperature_degC", above_absolute_zero, "temperature at which it is", is_optional=.true., &
          & example="100")
       call add_number(schema, "change_per_decade", anything, "change of the coefficient where the sliding speed is ten times "// &
          & "as high", is_optional=.true., example="0.01")
@@ -47,8 +46,8 @@ contains
          & default=standard%largest)
       call add_numbers(schema, "speed_points_m_s", positive, "sliding speeds of a table, increasing", is_optional=.true., &
          & example="0.01, 0.1, 1")
-      call add_numbers(schema, "temperature_points_degC", above_zero, "temperatures of a table, increasing", is_optional=.true., &
-         & example="60, 120")
+      call add_numbers(schema, "temperature_points_degC", above_absolute_zero, "temperatures of a table, increasing", &
+         & is_optional=.true., example="60, 120")
       call add_numbers(schema, "coefficient_points", not_negative, "coefficients of a table: those of all speeds at the first "// &
          & "temperature, then at the next", is_optional=.true., example="0.11, 0.12, 0.13, 0.10, 0.11, 0.12")
    end subroutine add_boundary_law_keys

@@ -7,7 +7,7 @@ module camroller_deck_cam_bearings
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_numbers, anything, from_to, group_effect, &
-      & not_negative, positive, range_t
+      & not_negative, positive, above_absolute_zero
    use camroller_journal, only : law_covers_width
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
@@ -30,7 +30,6 @@ contains
 
       type(bearing_asperity_t) :: standard
       type(bearing_heat_t) :: usual_heat
-      type(range_t), parameter :: above_zero = range_t(smallest=-273.15_wp, with_smallest=.false.)
 
       call add_group(schema, "bearing_asperity", group_effect, &
          & "asperities that share the load of the camshaft bearings where their film is thin")
@@ -59,8 +58,8 @@ contains
          & "torque of the seals and of the belt or chain on each camshaft, as a table over speed and temperature")
       call add_numbers(schema, "speed_points_rpm", not_negative, "speeds of the camshaft, increasing; with one alone the "// &
          & "torque does not depend on it", example="0, 1000, 3000")
-      call add_numbers(schema, "temperature_points_degC", above_zero, "temperatures of the oil, increasing; with one alone the "// &
-         & "torque does not depend on it", example="20, 90")
+      call add_numbers(schema, "temperature_points_degC", above_absolute_zero, "temperatures of the oil, increasing; with one "// &
+         & "alone the torque does not depend on it", example="20, 90")
       call add_numbers(schema, "torque_points_Nm", not_negative, "torques: those of all speeds at the first temperature, then "// &
          & "at the next; linear between them, a case outside the table is refused", &
          & example="0.25, 0.20, 0.22, 0.15, 0.12, 0.14")

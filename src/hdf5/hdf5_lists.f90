@@ -2,12 +2,11 @@
 !>
 !> In: nothing. Out: the lists that all datasets of a file share, made once since the library takes long for each.
 module camroller_hdf5_lists
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use hdf5, only : hid_t, hsize_t, size_t, h5pclose_f, h5pcreate_f, h5pset_attr_creation_order_f, h5pset_buffer_f, &
       & h5pset_chunk_cache_f, h5pset_fill_value_f, h5pset_link_creation_order_f, h5pset_obj_track_times_f, &
       & h5p_crt_order_indexed_f, h5p_crt_order_tracked_f, h5p_dataset_access_f, h5p_dataset_create_f, h5p_dataset_xfer_f, &
       & h5t_native_double
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : not_a_number
    implicit none
    private
 
@@ -35,7 +34,7 @@ contains
 
       call object_list(h5p_dataset_create_f, .false., lists%others, status)
       if (status == 0) call object_list(h5p_dataset_create_f, .false., lists%numbers, status)
-      if (status == 0) call h5pset_fill_value_f(lists%numbers, h5t_native_double, ieee_value(1.0_wp, ieee_quiet_nan), status)
+      if (status == 0) call h5pset_fill_value_f(lists%numbers, h5t_native_double, not_a_number(), status)
       if (status == 0) call h5pcreate_f(h5p_dataset_access_f, lists%access, status)
       ! Without a cache a chunk takes its space when it is written, not at some later time
       if (status == 0) call h5pset_chunk_cache_f(lists%access, 1_size_t, 0_size_t, 1.0, status)

@@ -2,7 +2,7 @@
 !>
 !> In: a case. Out: lines of text.
 module camroller_case_facts
-   use camroller_kinds, only : wp, degree, two_pi
+   use camroller_kinds, only : wp, degree, two_pi, celsius_zero, per_minute
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t
    use camroller_case, only : case_t
@@ -153,13 +153,13 @@ contains
       ! By which factor bearings are too wide or too narrow for their law [-]
       real(wp) :: excess
 
-      text = text//"oil at "//number_text(case%operating_point%oil_temperature - 273.15_wp, 4)//" degC: "// &
+      text = text//"oil at "//number_text(case%operating_point%oil_temperature - celsius_zero, 4)//" degC: "// &
          & number_text(1.0e3_wp*model%oil%viscosity, digits)//" mPa s, pressure-viscosity coefficient "// &
          & number_text(1.0e9_wp*model%oil%pressure_viscosity, digits)//" 1/GPa"
       if (model%oil%is_estimated) text = text//" (estimated by So and Klaus 1980, since the deck gives none)"
       call describe_hths(case, text)
       text = text//n//"composite roughness: "//number_text(1.0e6_wp*model%roughness, digits)//" um; cam speed "// &
-         & number_text(case%operating_point%speed*60.0_wp/two_pi, 4)//" rev/min"
+         & number_text(case%operating_point%speed*per_minute, 4)//" rev/min"
       if (allocated(case%engine)) then
          call write_speed(case%operating_point%speed, model%crank_turns, 4, speed)
          text = text//" ("//speed//")"
@@ -255,10 +255,10 @@ contains
       ! The one scalar of these that is no smallest value of a series
       character(len=*), parameter :: n = new_line("a"), event_load = "min_event_contact_load"
       ! Of the speeds that are shown [rev/min over rad/s]
-      real(wp) :: per_minute
+      real(wp) :: speed_factor
       character(len=:), allocatable :: unit
 
-      per_minute = 60.0_wp/two_pi*merge(turns, 1.0_wp, turns > 0.0_wp)
+      speed_factor = per_minute*merge(turns, 1.0_wp, turns > 0.0_wp)
       unit = " rev/min of the "//trim(merge("crankshaft", "camshaft  ", turns > 0.0_wp))
       call add_value(name//" contact load up to ", "max_contact_load", 1.0_wp)
       call add_value(" N, pressure up to ", "max_hertz_pressure", 1.0e-9_wp)
@@ -266,7 +266,7 @@ contains
       call add_value(" to ", "max_film_ratio", 1.0_wp)
       call add_value(n//name//" smallest load of the event ", "margin_event", 1.0_wp)
       call add_value(" N, on the base circle ", "margin_base_circle", 1.0_wp)
-      call add_value(" N; contact is lost above ", "contact_loss_speed", per_minute)
+      call add_value(" N; contact is lost above ", "contact_loss_speed", speed_factor)
       text = text//unit//", all without friction"
       if (find_quantity(result%summary, prefix//event_load) > 0) then
          call add_value("; smallest load of the event with friction ", event_load, 1.0_wp)
@@ -274,8 +274,8 @@ contains
       end if
       text = text//n
       if (find_quantity(result%summary, prefix//"train_frequency") == 0) return
-      call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", per_minute)
-      call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", per_minute)
+      call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", speed_factor)
+      call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", speed_factor)
       call add_value(unit//"; natural frequency of the train ", "train_frequency", 1.0_wp)
       call add_value(" Hz, load of a train that vibrates over a rigid one's ", "load_factor", 1.0_wp)
       if (find_quantity(result%summary, prefix//"surge_estimate_1") > 0) then

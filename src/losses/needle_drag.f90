@@ -6,7 +6,7 @@
 !> `M_0 = f_0 1e-7 max((nu n)^(2/3), 160) d_m^3` in N mm, nu in mm^2/s, n in rev/min, d_m in mm. The limit is printed at
 !> nu n = 2000, where both branches differ by 0.8 %; here they meet, at 160^(3/2) = 2023.9.
 module camroller_needle_drag
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp, per_minute
    use camroller_error, only : error_t, raise, kind_deck
    implicit none
    private
@@ -38,7 +38,7 @@ module camroller_needle_drag
    !> Palmgren's constant for N mm and mm [1e-7 N mm^-2], in SI [N m/m^3]
    real(wp), parameter :: per_volume = 1.0e-7_wp*1.0e-3_wp*1.0e9_wp
    !> mm^2/s in a m^2/s [-], rev/min in a rad/s [-]
-   real(wp), parameter :: square_millimetres = 1.0e6_wp, turns_a_minute = 30.0_wp/pi
+   real(wp), parameter :: square_millimetres = 1.0e6_wp
 
 contains
 
@@ -69,7 +69,7 @@ contains
       !> Kinematic viscosity of the oil, nu [m^2/s]
       real(wp), intent(in) :: kinematic_viscosity
 
-      part%limit = floor**1.5_wp/(kinematic_viscosity*square_millimetres*turns_a_minute)
+      part%limit = floor**1.5_wp/(kinematic_viscosity*square_millimetres*per_minute)
    end subroutine set_drag_oil
 
    !> Give the drag the cam's speed.

@@ -2,7 +2,7 @@
 !>
 !> In: a key with its usual range, a number. Out: a question. Remarks and refusals ask it.
 module camroller_deck_meant
-   use camroller_kinds, only : wp, degree
+   use camroller_kinds, only : wp, degree, celsius_zero
    use camroller_number_text, only : number_text
    use camroller_deck_schema, only : key_t, range_t
    implicit none
@@ -20,8 +20,6 @@ module camroller_deck_meant
    character(len=*), parameter :: of_one_size(*) = [character(len=4) :: "rpm", "deg", "degC"]
    !> Kinematic viscosities that a data sheet may give [mm^2/s]
    type(range_t), parameter :: sheet_range = range_t(2.0_wp, 500.0_wp)
-   !> Zero of the Celsius scale [K]
-   real(wp), parameter :: celsius_zero = 273.15_wp
 
 contains
 

@@ -1,10 +1,9 @@
 !> What a deck may hold: types for groups and keys, and how to find and describe them.
 !>
-!> In: declarations, which `camroller_deck_keys` makes. Out: `schema_t`, the one source for reading,
-!> checking,
-!> documenting and echoing decks.
+!> In: declarations, which `camroller_deck_keys` makes. Out: `schema_t`, the one source for reading, checking, documenting and
+!> echoing decks.
 module camroller_deck_schema
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, celsius_zero
    use camroller_names, only : name_length, write_names
    use camroller_units, only : unit_t, unit_of_key, from_si
    use camroller_deck_text, only : to_lower
@@ -17,7 +16,7 @@ module camroller_deck_schema
    public :: find_group, find_key, say_allowed, say_usual, group_names, key_names
    public :: group_required, group_standard, group_effect
    public :: type_number, type_integer, type_logical, type_name, type_text, type_numbers, type_integers, type_words
-   public :: anything, positive, not_negative, proper_fraction, up_to, from_to, one_or_more
+   public :: anything, positive, not_negative, proper_fraction, up_to, from_to, one_or_more, above_absolute_zero
    public :: key_length
 
    !> Length of the names of groups and keys
@@ -47,6 +46,8 @@ module camroller_deck_schema
    type(range_t), parameter :: positive = range_t(smallest=0.0_wp, with_smallest=.false.)
    type(range_t), parameter :: not_negative = range_t(smallest=0.0_wp)
    type(range_t), parameter :: one_or_more = range_t(smallest=1.0_wp)
+   !> Of temperatures in degC
+   type(range_t), parameter :: above_absolute_zero = range_t(smallest=-celsius_zero, with_smallest=.false.)
    type(range_t), parameter :: proper_fraction = range_t(0.0_wp, 1.0_wp, .false., .false.)
 
    !> One key

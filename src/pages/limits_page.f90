@@ -2,7 +2,7 @@
 !>
 !> In: a search that has ended. Out: text.
 module camroller_limits_page
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp, per_minute
    use camroller_limit_speeds, only : adjuster_limit, closing_limit, joint_limit, limit_names, limits_t, &
       & seating_limit
    use camroller_number_text, only : integer_text, number_text, right_text
@@ -12,8 +12,6 @@ module camroller_limits_page
    public :: write_limits_page
 
    character(len=*), parameter :: n = new_line("a")
-   !> Rev/min in a rad/s [-]
-   real(wp), parameter :: per_minute = 30.0_wp/pi
    !> Widths of the columns
    integer, parameter :: first_width = 50, speed_width = 16
 

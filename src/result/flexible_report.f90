@@ -4,7 +4,6 @@
 !> the same of each turn where there are several. Each step is integrated with its own curve; turns of a period, or those for
 !> statistics where there is none, count alike.
 module camroller_flexible_report
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_case, only : case_t
    use camroller_catalogue, only : lobe_prefix, series_values
    use camroller_cycle, only : cycle_t
@@ -18,7 +17,7 @@ module camroller_flexible_report
    use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle
    use camroller_follower_samples, only : add_shares, shares_t
-   use camroller_kinds, only : two_pi, wp
+   use camroller_kinds, only : two_pi, wp, not_a_number
    use camroller_lash_adjuster, only : relative_volume
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
@@ -308,7 +307,7 @@ contains
       if (turns == 1) return
       allocate (list%items(0), list%values(0))
       allocate (result%history_values(turns, sum([(size(cycles(lobe)%flexible%values, 1), lobe=1, size(cycles))])), &
-         & source=ieee_value(1.0_wp, ieee_quiet_nan))
+         & source=not_a_number())
       do lobe = 1, size(cycles)
          associate (values => cycles(lobe)%flexible%values)
             first = list%count

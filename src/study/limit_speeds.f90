@@ -5,7 +5,7 @@
 !> scan upwards in even steps and halving where one is passed, on periodic states, or on 40 cycles where there is none. What a train
 !> does within less than a step of the scan may be missed.
 module camroller_limit_speeds
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp, pi, per_minute
    use camroller_accuracy, only : resolve_numerics
    use camroller_case, only : case_t
    use camroller_error, only : error_t, add_context
@@ -129,7 +129,7 @@ contains
       call judge_speed(search, speed, is_passed, period, error)
       search%done = search%done + 1
       if (allocated(error)) then
-         search%failure = "at "//number_text(speed*30.0_wp/pi, 6)//" rev/min: "//error%message
+         search%failure = "at "//number_text(speed*per_minute, 6)//" rev/min: "//error%message
          search%is_open = .false.
          return
       end if

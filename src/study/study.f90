@@ -4,14 +4,14 @@
 !> In: a case. Out: rows of one table. Each family of methods has a reference of its own: two unlike integration methods that
 !> must agree, the finest table of numerical films, or the finest solution of the contact over the cycle.
 module camroller_study
-   use camroller_kinds, only : wp, degree
+   use camroller_kinds, only : wp, degree, not_a_number
    use camroller_names, only : name_length
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t, automatic_method, quasi_static
    use camroller_number_text, only : number_text
    use camroller_ode_methods, only : method_facts
    use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word
-   use camroller_study_trial, only : trial_t, run_trial, solve_trial, errors_against, no_number, smallest_error
+   use camroller_study_trial, only : trial_t, run_trial, solve_trial, errors_against, smallest_error
    implicit none
    private
 
@@ -151,7 +151,7 @@ contains
       type(trial_t) :: trials(2)
       integer :: i
 
-      disagreement = no_number()
+      disagreement = not_a_number()
       variant = case
       variant%numerics%periodicity = min(case%numerics%periodicity, plan%periodicity)
       do i = 1, size(trials)
@@ -282,11 +282,11 @@ contains
       if (allocated(follower%cam_bearings)) deallocate (follower%cam_bearings)
       if (.not. allocated(follower%ehl)) allocate (follower%ehl)
       follower%ehl%profiles = .false.
-      law = way_t(case%film%law, dial_none, no_number())
+      law = way_t(case%film%law, dial_none, not_a_number())
 
       call run_trial(apply_way(way_t("", dial_film, film_reference), follower), 1, reference)
       call raise_failure(reference, "numerical film", error)
-      call add_reference(table, position, "numerical film", reference, no_number(), error)
+      call add_reference(table, position, "numerical film", reference, not_a_number(), error)
       if (.not. allocated(error)) then
          call run_trial(apply_way(law, follower), repeats, trial)
          call add_trial(table, position, law, reference, trial)
@@ -300,7 +300,7 @@ contains
 
       call solve_trial(follower, merge(quick_nodes, reference_nodes, is_quick), reference_step_error, 1, reference)
       call raise_failure(reference, "film solved over the cycle", failure)
-      call add_reference(table, position, "solved over cycle", reference, no_number(), failure)
+      call add_reference(table, position, "solved over cycle", reference, not_a_number(), failure)
       if (allocated(failure)) then
          if (.not. allocated(error)) call move_alloc(failure, error)
          return

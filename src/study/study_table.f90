@@ -2,8 +2,7 @@
 !>
 !> In: the meaning of each column, rows one by one, values by the names of their columns. Out: `study_table_t`.
 module camroller_study_table
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, not_a_number
    use camroller_result, only : find_quantity, quantity_t
    implicit none
    private
@@ -93,7 +92,7 @@ contains
       end if
       table%rows = n + 1
       table%words(table%rows, :) = ""
-      table%numbers(table%rows, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      table%numbers(table%rows, :) = not_a_number()
    end subroutine new_row
 
    !> Give the last row a number.

@@ -2,8 +2,7 @@
 !>
 !> In: a case. Out: `trial_t`. A run that fails has a status and a message.
 module camroller_study_trial
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp, two_pi, not_a_number
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
@@ -14,10 +13,11 @@ module camroller_study_trial
    use camroller_report, only : output_angles
    use camroller_result, only : result_t, find_quantity
    use camroller_run, only : run_case
+   use camroller_sorting, only : median
    implicit none
    private
 
-   public :: trial_t, run_trial, solve_trial, errors_against, largest_deviation, relative_error, median, no_number, smallest_error
+   public :: trial_t, run_trial, solve_trial, errors_against, largest_deviation, relative_error, smallest_error
 
    !> Error below which two results count as equal: the smallest that a study shows [-]
    real(wp), parameter :: smallest_error = 1.0e-8_wp
@@ -143,9 +143,9 @@ contains
       trial%mean_friction = mean_over_cycle(record%angle, column(record, "torque_friction"))
       trial%smallest_film = minval(at_angles(output_angles(case%numerics%output_step)*two_pi/360.0_wp, &
          & modulo(record%angle + 0.5_wp*two_pi, two_pi), column(record, "film_min")))
-      trial%revolution_slip = no_number()
-      trial%estimated_error = no_number()
-      trial%evaluations = no_number()
+      trial%revolution_slip = not_a_number()
+      trial%estimated_error = not_a_number()
+      trial%evaluations = not_a_number()
       trial%steps = size(cycle%angle)
    end subroutine solve_trial
 
@@ -212,33 +212,5 @@ contains
          error = 1.0_wp
       end if
    end function relative_error
-
-   !> The middle one of some numbers, or the mean of both middle ones.
-   pure function median(values) result(middle)
-      !> The numbers, one or more [any]
-      real(wp), intent(in) :: values(:)
-      !> Their median [any]
-      real(wp) :: middle
-
-      ! Numbers below and up to one of them
-      integer :: below(size(values)), up_to(size(values))
-      integer :: i
-
-      do i = 1, size(values)
-         below(i) = count(values < values(i))
-         up_to(i) = count(values <= values(i))
-      end do
-      associate (n => size(values))
-         middle = 0.5_wp*(maxval(values, mask=below < (n + 1)/2) + minval(values, mask=up_to > n/2))
-      end associate
-   end function median
-
-   !> What stands where there is no number.
-   pure function no_number() result(number)
-      !> It [any]
-      real(wp) :: number
-
-      number = ieee_value(number, ieee_quiet_nan)
-   end function no_number
 
 end module camroller_study_trial

@@ -1,7 +1,7 @@
 !> Drag of the oil in the roller's bearing.
 module test_needle_drag
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller_kinds, only : wp, pi, degree
+   use camroller_kinds, only : wp, degree, per_minute
    use camroller_error, only : error_t, kind_deck
    use camroller_case, only : case_t
    use camroller_model, only : model_t, new_model
@@ -16,9 +16,6 @@ module test_needle_drag
    private
 
    public :: collect_needle_drag
-
-   !> rev/min in a rad/s [-]
-   real(wp), parameter :: turns_a_minute = 30.0_wp/pi
 
 contains
 
@@ -59,11 +56,11 @@ contains
       do i = 1, size(speeds)
          expected = 12.0_wp*160.0e-7_wp*10.22_wp**3
          if (viscosity*speeds(i) > 2023.9_wp) expected = 12.0e-7_wp*(viscosity*speeds(i))**(2.0_wp/3.0_wp)*10.22_wp**3
-         torque = 1.0e3_wp*drag_torque(part, -speeds(i)/turns_a_minute)
+         torque = 1.0e3_wp*drag_torque(part, -speeds(i)/per_minute)
          call check_close(error, torque, -expected, roundings, "torque")
          if (allocated(error)) return
       end do
-      call check_close(error, part%limit*turns_a_minute*viscosity, 2023.9_wp, 3.0e-5_wp, "where the branches meet")
+      call check_close(error, part%limit*per_minute*viscosity, 2023.9_wp, 3.0e-5_wp, "where the branches meet")
       if (allocated(error)) return
       ! (2000)^(2/3) is 158.74, 0.8 % below 160
       call check_close(error, 160.0_wp/2000.0_wp**(2.0_wp/3.0_wp) - 1.0_wp, 0.008_wp, 0.02_wp, "step of the printed limit")

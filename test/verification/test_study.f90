@@ -9,7 +9,8 @@ module test_study
    use camroller_study, only : plan_t, plan_for, way_t, apply_way, check_agreement, dial_reference, list_ways, new_study_table, &
       & study_case
    use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word, column_of, words_of
-   use camroller_study_trial, only : trial_t, errors_against, median, relative_error, run_trial, smallest_error
+   use camroller_sorting, only : median
+   use camroller_study_trial, only : trial_t, errors_against, relative_error, run_trial, smallest_error
    use reference_cases, only : thesis_case
    implicit none
    private
