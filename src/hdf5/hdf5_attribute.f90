@@ -13,7 +13,7 @@ module camroller_hdf5_attribute
    implicit none
    private
 
-   public :: put_attribute, make_scale, attach_scale
+   public :: put_attribute, describe, make_scale, attach_scale
 
    !> Attribute of a file, group or dataset
    interface put_attribute
@@ -78,6 +78,23 @@ contains
 
       call put_scalar(object, name, h5t_std_i32le, h5t_native_integer, c_loc(number), error)
    end subroutine put_integer
+
+   !> Attributes that say what a dataset is.
+   subroutine describe(dataset, unit, meaning, source, error, scope)
+      !> The dataset
+      type(hdf5_object_t), intent(in) :: dataset
+      !> Unit of its values; meaning in a few words; part of the model that it comes from
+      character(len=*), intent(in) :: unit, meaning, source
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+      !> What it belongs to: a lobe, the camshaft or the case
+      character(len=*), intent(in), optional :: scope
+
+      call put_text(dataset, "units", unit, error)
+      if (.not. allocated(error)) call put_text(dataset, "long_name", meaning, error)
+      if (.not. allocated(error)) call put_text(dataset, "source", source, error)
+      if (.not. allocated(error) .and. present(scope)) call put_text(dataset, "scope", scope, error)
+   end subroutine describe
 
    !> Make a dataset with one axis a dimension, named as the dataset.
    subroutine make_scale(dataset, error)

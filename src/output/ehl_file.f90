@@ -7,7 +7,7 @@
 module camroller_ehl_file
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t
-   use camroller_hdf5_attribute, only : attach_scale, make_scale, put_attribute
+   use camroller_hdf5_attribute, only : attach_scale, describe, make_scale
    use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, reserve_file, write_integers, &
       & write_numbers
    use camroller_hdf5_object, only : hdf5_object_t
@@ -104,12 +104,12 @@ contains
       over_angles = [file%angle_count, cases]
       over_nodes = [file%node_count, cases]
       call create_numbers(lobe%group, "angle", [file%angle_count], [integer ::], 0, lobe%angles, error)
-      if (.not. allocated(error)) call describe(lobe%angles, "degree", "cam angle, full lift at 180", error)
+      if (.not. allocated(error)) call describe(lobe%angles, "degree", "cam angle, full lift at 180", "ehl", error)
       if (.not. allocated(error)) call make_scale(lobe%angles, error)
       if (.not. allocated(error)) call write_numbers(lobe%angles, 0, [(i*360.0_wp/file%angle_count, i=0, file%angle_count - 1)], &
          & error)
       if (.not. allocated(error)) call create_integers(lobe%group, "node", [file%node_count], lobe%nodes, error)
-      if (.not. allocated(error)) call describe(lobe%nodes, "1", "node across the contact", error)
+      if (.not. allocated(error)) call describe(lobe%nodes, "1", "node across the contact", "ehl", error)
       if (.not. allocated(error)) call make_scale(lobe%nodes, error)
       if (.not. allocated(error)) call write_integers(lobe%nodes, 0, [(i, i=0, file%node_count - 1)], error)
       allocate (lobe%series(size(file%quantities)))
@@ -117,14 +117,14 @@ contains
          if (allocated(error)) return
          associate (quantity => file%quantities(i), dataset => lobe%series(i))
             call create_numbers(lobe%group, quantity%name, over_angles, chunk_of(writer, over_angles), 0, dataset, error)
-            if (.not. allocated(error)) call describe(dataset, quantity%unit, quantity%description, error)
+            if (.not. allocated(error)) call describe(dataset, quantity%unit, quantity%description, "ehl", error)
             if (.not. allocated(error)) call attach_scale(dataset, lobe%angles, 1, 2, error)
             if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 2, 2, error)
          end associate
       end do
       if (.not. allocated(error)) call create_numbers(lobe%group, "x", over_nodes, chunk_of(writer, over_nodes), 0, &
          & lobe%places, error)
-      if (.not. allocated(error)) call describe(lobe%places, "1", "nodes relative to half_width, inlet first", error)
+      if (.not. allocated(error)) call describe(lobe%places, "1", "nodes relative to half_width, inlet first", "ehl", error)
       if (.not. allocated(error)) call attach_scale(lobe%places, lobe%nodes, 1, 2, error)
       if (.not. allocated(error)) call attach_scale(lobe%places, writer%case_axis, 2, 2, error)
       if (.not. allocated(error)) call create_profile(lobe, writer, "pressure", "Pa", "pressure of film and asperities", &
@@ -164,25 +164,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       call create_numbers(lobe%group, name, extents, chunk_of(writer, extents), 0, dataset, error)
-      if (.not. allocated(error)) call describe(dataset, unit, meaning//" over case, angle, node", error)
+      if (.not. allocated(error)) call describe(dataset, unit, meaning//" over case, angle, node", "ehl", error)
       if (.not. allocated(error)) call attach_scale(dataset, lobe%nodes, 1, 3, error)
       if (.not. allocated(error)) call attach_scale(dataset, lobe%angles, 2, 3, error)
       if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 3, 3, error)
    end subroutine create_profile
-
-   !> What a dataset is.
-   subroutine describe(dataset, unit, meaning, error)
-      !> The dataset
-      type(hdf5_object_t), intent(in) :: dataset
-      !> Unit and meaning
-      character(len=*), intent(in) :: unit, meaning
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      call put_attribute(dataset, "units", unit, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "long_name", meaning, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "source", "ehl", error)
-   end subroutine describe
 
    !> Write the record of a case and a lobe shape.
    subroutine write_ehl(file, writer, position, lobe_number, record, error)

@@ -6,7 +6,7 @@ module camroller_history_file
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_flexible_report, only : most_turns
-   use camroller_hdf5_attribute, only : attach_scale, make_scale, put_attribute
+   use camroller_hdf5_attribute, only : attach_scale, describe, make_scale
    use camroller_hdf5_file, only : close_object, create_group, create_numbers, reserve_file, write_numbers
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_names, only : name_length
@@ -127,7 +127,7 @@ contains
       if (.not. allocated(error)) call create_group(writer%file, trim(list%group), self%group, error)
       if (.not. allocated(error)) call create_numbers(self%group, trim(list%axis), shape(places), [integer ::], 0, self%axis, &
          & error)
-      if (.not. allocated(error)) call describe(self%axis, "1", trim(list%meaning), trim(list%source), "case", error)
+      if (.not. allocated(error)) call describe(self%axis, "1", list%meaning, list%source, error, "case")
       if (.not. allocated(error)) call make_scale(self%axis, error)
       if (.not. allocated(error)) call write_numbers(self%axis, 0, places, error)
       do i = 1, size(quantities)
@@ -135,27 +135,12 @@ contains
          associate (quantity => quantities(i), dataset => self%columns(i))
             call create_numbers(self%group, quantity%name, [size(places), cases], [integer ::], 0, dataset, error)
             if (.not. allocated(error)) call describe(dataset, quantity%unit, quantity%description, quantity%source, &
-               & trim(quantity%scope), error)
+               & error, quantity%scope)
             if (.not. allocated(error)) call attach_scale(dataset, self%axis, 1, 2, error)
             if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 2, 2, error)
          end associate
       end do
    end subroutine open_history
-
-   !> Attributes that say what a dataset is.
-   subroutine describe(dataset, unit, meaning, source, scope, error)
-      !> The dataset
-      type(hdf5_object_t), intent(in) :: dataset
-      !> Unit of its values, meaning in a few words, part of the model, what it belongs to
-      character(len=*), intent(in) :: unit, meaning, source, scope
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      call put_attribute(dataset, "units", unit, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "long_name", meaning, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "source", source, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "scope", scope, error)
-   end subroutine describe
 
    !> Close the datasets.
    subroutine close_history(self)

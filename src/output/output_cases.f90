@@ -4,8 +4,7 @@
 !> contiguous block; larger ones are cut into chunks of as many cases as are gathered, so that each chunk is written
 !> once.
 module camroller_output_cases
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, not_a_number
    use camroller_error, only : error_t, raise, kind_internal
    use camroller_effect_report, only : choice_source
    use camroller_layout, only : join_quantities, layout_t
@@ -13,7 +12,7 @@ module camroller_output_cases
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, create_texts, reserve_file, &
       & write_integers, write_numbers, write_text
-   use camroller_hdf5_attribute, only : attach_scale, make_scale, put_attribute
+   use camroller_hdf5_attribute, only : attach_scale, describe, make_scale, put_attribute
    use camroller_output_file, only : check_open, not_written, number_size, object_size, output_t, text_size
    implicit none
    private
@@ -75,9 +74,9 @@ contains
       if (.not. allocated(writer%summary)) return
       call start_row(writer, position, error)
       if (allocated(error)) return
-      if (size(writer%rows) > 0) writer%rows(:, writer%gathered, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (size(writer%rows) > 0) writer%rows(:, writer%gathered, :) = not_a_number()
       if (size(writer%rows) > 0 .and. size(series) > 0) writer%rows(:, writer%gathered, :) = series
-      writer%scalars(writer%gathered, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      writer%scalars(writer%gathered, :) = not_a_number()
       if (status == 0) writer%scalars(writer%gathered, :) = summary
       call end_row(writer, position, error)
    end subroutine gather_row
@@ -430,26 +429,5 @@ contains
 
       answer = rows*real(length, wp)*number_size > limit
    end function is_large
-
-   !> Attributes that say what a dataset is.
-   subroutine describe(dataset, unit, description, source, error, scope)
-      !> The dataset
-      type(hdf5_object_t), intent(in) :: dataset
-      !> Unit of its values
-      character(len=*), intent(in) :: unit
-      !> Meaning in a few words
-      character(len=*), intent(in) :: description
-      !> Part of the model that it comes from
-      character(len=*), intent(in) :: source
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-      !> What it belongs to: a lobe, the camshaft or the case
-      character(len=*), intent(in), optional :: scope
-
-      call put_attribute(dataset, "units", unit, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "long_name", description, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "source", source, error)
-      if (.not. allocated(error) .and. present(scope)) call put_attribute(dataset, "scope", trim(scope), error)
-   end subroutine describe
 
 end module camroller_output_cases

@@ -5,12 +5,11 @@
 module camroller_study_file
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use camroller_hdf5_attribute, only : attach_scale, make_scale, put_attribute
+   use camroller_hdf5_attribute, only : attach_scale, describe, make_scale, put_attribute
    use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, create_texts, reserve_file, &
       & write_integers, write_numbers, write_text
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_output_file, only : check_open, finish_file, abandon_output, number_size, object_size, output_t, text_size
-   use camroller_result, only : quantity_t
    use camroller_study_table, only : study_table_t, word_length
    implicit none
    private
@@ -62,7 +61,7 @@ contains
       if (.not. allocated(error)) call create_group(study, name, group, error)
       if (.not. allocated(error)) call put_attribute(group, "long_name", title, error)
       if (.not. allocated(error)) call create_integers(group, "row", [table%rows], axis, error)
-      if (.not. allocated(error)) call describe(axis, quantity_t("row", "1", "row of the table", "study"), error)
+      if (.not. allocated(error)) call describe(axis, "1", "row of the table", "study", error)
       if (.not. allocated(error)) call make_scale(axis, error)
       if (.not. allocated(error)) call write_integers(axis, 0, [(i, i=0, table%rows - 1)], error)
       if (.not. allocated(error)) call write_words(group, axis, table, error)
@@ -117,7 +116,9 @@ contains
       do column = 1, size(table%number_columns)
          call create_numbers(group, table%number_columns(column)%name, [table%rows], [integer ::], 0, dataset, error)
          if (allocated(error)) return
-         call describe(dataset, table%number_columns(column), error)
+         associate (quantity => table%number_columns(column))
+            call describe(dataset, quantity%unit, quantity%description, quantity%source, error)
+         end associate
          if (.not. allocated(error)) call attach_scale(dataset, axis, 1, 1, error)
          values = table%numbers(:table%rows, column)
          if (.not. allocated(error)) call write_numbers(dataset, 0, values, error)
@@ -125,20 +126,6 @@ contains
          if (allocated(error)) return
       end do
    end subroutine write_columns
-
-   !> Attributes that say what a dataset is.
-   subroutine describe(dataset, quantity, error)
-      !> The dataset
-      type(hdf5_object_t), intent(in) :: dataset
-      !> What it is
-      type(quantity_t), intent(in) :: quantity
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      call put_attribute(dataset, "units", quantity%unit, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "long_name", quantity%description, error)
-      if (.not. allocated(error)) call put_attribute(dataset, "source", quantity%source, error)
-   end subroutine describe
 
    !> Finish the file of a study, which has tables in place of series and summary.
    subroutine close_study(writer, error)
