@@ -1,6 +1,6 @@
 !> Heat balance of camshaft bearings.
 module test_bearing_heat
-   use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t, oil_flow, temperature_rise
@@ -13,6 +13,8 @@ module test_bearing_heat
    use camroller_run, only : run_case
    use camroller_shaft_simulation, only : shaft_simulation_t, start_shaft
    use reference_cases, only : point_speeds, set_point, thesis_case
+   use lobe_cases, only : run
+   use result_checks, only : scalar_of
    implicit none
    private
 
@@ -94,26 +96,6 @@ contains
       case%cam_bearings%by_bearing = .true.
    end function cold_case
 
-   !> A scalar
-   function scalar(result, name) result(value)
-      type(result_t), intent(in) :: result
-      character(len=*), intent(in) :: name
-      real(wp) :: value
-
-      value = result%summary_values(find_quantity(result%summary, name))
-   end function scalar
-
-   !> Run a case
-   subroutine run(case, result, error)
-      type(case_t), intent(in) :: case
-      type(result_t), intent(out) :: result
-      type(error_type), allocatable, intent(out) :: error
-      type(error_t), allocatable :: failure
-
-      call run_case(case, result, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-   end subroutine run
-
    !> From the means of the result: `rho c_p Q 2 dT = share M omega`
    subroutine check_balance(case, result, least, error)
       type(case_t), intent(in) :: case
@@ -129,13 +111,13 @@ contains
          & *(case%operating_point%oil_temperature - 288.15_wp))
       do i = 1, 3
          write (name, "(a, i0, a)") "bearing_", i, "_"
-         taken = density*case%bearing_heat%heat_capacity*scalar(result, "mean_"//trim(name)//"oil_flow")*2.0_wp &
-            & *scalar(result, "mean_"//trim(name)//"temperature_rise")
+         taken = density*case%bearing_heat%heat_capacity*scalar_of(result, "mean_"//trim(name)//"oil_flow")*2.0_wp &
+            & *scalar_of(result, "mean_"//trim(name)//"temperature_rise")
          ! means of the result to the accuracy of the case, 1e-5; four of Gauss' points in pieces of five degrees, less
-         call check(error, abs(taken/(case%bearing_heat%oil_share*scalar(result, "mean_"//trim(name)//"torque") &
+         call check(error, abs(taken/(case%bearing_heat%oil_share*scalar_of(result, "mean_"//trim(name)//"torque") &
             & *case%operating_point%speed) - 1.0_wp) < 3.0e-5_wp, name)
          if (allocated(error)) return
-         call check(error, scalar(result, "mean_"//trim(name)//"temperature_rise") > least, name//" stays cold")
+         call check(error, scalar_of(result, "mean_"//trim(name)//"temperature_rise") > least, name//" stays cold")
          if (allocated(error)) return
       end do
    end subroutine check_balance
@@ -173,7 +155,7 @@ contains
       if (allocated(error)) return
       do i = 1, 3
          write (name, "(a, i0, a)") "bearing_", i, "_"
-         call get_oil(case%lubricant, supply + scalar(result, "mean_"//trim(name)//"temperature_rise"), oil, failure)
+         call get_oil(case%lubricant, supply + scalar_of(result, "mean_"//trim(name)//"temperature_rise"), oil, failure)
          twin = case
          deallocate (twin%bearing_heat)
          ! the clearance that makes eta/c^2 the same makes the bearing the same, and eta/c what its friction is relative to
@@ -217,9 +199,10 @@ contains
          if (allocated(error)) return
       end do
       ! oil that is some kelvins warmer is thinner by some per cent for each
-      call check(error, scalar(with, "mean_torque_bearings") < 0.9_wp*scalar(without, "mean_torque_bearings"), "heat does nothing")
+      call check(error, scalar_of(with, "mean_torque_bearings") < 0.9_wp*scalar_of(without, "mean_torque_bearings"), &
+         & "heat does nothing")
       if (allocated(error)) return
-      call check(error, scalar(with, "relative_energy_residual") < 1.0e-11_wp, "energy")
+      call check(error, scalar_of(with, "relative_energy_residual") < 1.0e-11_wp, "energy")
    end subroutine test_bits
 
    subroutine test_together(error)
@@ -254,7 +237,7 @@ contains
          call run(case, result, error)
          if (.not. allocated(error)) call check_balance(case, result, 0.1_wp, error)
          if (allocated(error)) return
-         call check(error, scalar(result, "mean_bearing_1_temperature_rise") > 2.0_wp, "the bearing at the belt stays cold")
+         call check(error, scalar_of(result, "mean_bearing_1_temperature_rise") > 2.0_wp, "the bearing at the belt stays cold")
          if (allocated(error)) return
       end do
       ! Oil that carries next to nothing away, of bearings that rub: no balance below 200 K

@@ -1,12 +1,12 @@
 !> A flexible train driven from outside: at the ends of its range, where a step fails, in a whole camshaft.
 module test_flexible_host
    use, intrinsic :: iso_fortran_env, only : int64
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller, only : wp, pi, two_pi, degree, error_t, case_t, simulation_t, outcome_t, inputs_t, result_t, &
       & shaft_simulation_t, shaft_outcome_t, kind_convergence, kind_usage, run_case, get_summary, start_simulation, advance, halt, &
       & start_shaft, advance_shaft
    use camroller_torque_list, only : of_bearings
-   use closeness, only : check_close
+   use closeness, only : check_close, has_failed
    use deck_cases, only : get_deck_case
    use driven_trains, only : train, steady, inputs_at, engine_case
    use flexible_cases, only : add_dynamics
@@ -230,14 +230,5 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_head
-
-   !> Has a call failed?
-   logical function has_failed(failure, error)
-      type(error_t), allocatable, intent(in) :: failure
-      type(error_type), allocatable, intent(out) :: error
-
-      has_failed = allocated(failure)
-      if (has_failed) call test_failed(error, failure%message)
-   end function has_failed
 
 end module test_flexible_host

@@ -1,10 +1,10 @@
 !> A follower with a flexible train driven from outside.
 module test_flexible_simulation
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller, only : wp, pi, two_pi, degree, error_t, case_t, numerics_t, simulation_t, outcome_t, inputs_t, result_t, &
       & run_case, get_summary, start_simulation, advance
    use camroller_torque_list, only : of_damping, of_residual
-   use closeness, only : check_close, check_scaled
+   use closeness, only : check_close, check_scaled, has_failed
    use deck_cases, only : get_deck_case
    use driven_trains, only : train, steady, inputs_at, engine_case
    implicit none
@@ -299,14 +299,5 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_estimate
-
-   !> Has a call failed?
-   logical function has_failed(failure, error)
-      type(error_t), allocatable, intent(in) :: failure
-      type(error_type), allocatable, intent(out) :: error
-
-      has_failed = allocated(failure)
-      if (has_failed) call test_failed(error, failure%message)
-   end function has_failed
 
 end module test_flexible_simulation

@@ -11,6 +11,7 @@ module test_shaft_drag
    use camroller_shaft_simulation, only : advance_shaft, shaft_outcome_t, shaft_simulation_t, start_shaft
    use camroller_torque_list, only : of_shaft_drag
    use deck_cases, only : get_deck_case
+   use result_checks, only : scalar_of
    implicit none
    private
 
@@ -159,13 +160,13 @@ contains
       call check(error, compared > 30, "hardly anything is compared")
       if (.not. allocated(error)) call expect_scalar("mean_torque_shaft_drag", 2.0_wp*torque)
       if (.not. allocated(error)) call expect_scalar("mean_camshaft_2_torque_friction", &
-         & scalar(without, "mean_camshaft_2_torque_friction") + torque)
+         & scalar_of(without, "mean_camshaft_2_torque_friction") + torque)
       if (.not. allocated(error)) call expect_scalar("power_shaft_drag", 2.0_wp*torque*case%operating_point%speed)
       if (.not. allocated(error)) call expect_scalar("work_shaft_drag", 2.0_wp*torque*two_pi)
       if (.not. allocated(error)) call expect_scalar("fmep_shaft_drag", 4.0_wp*pi*torque/case%engine%displacement)
-      if (.not. allocated(error)) call expect_scalar("mean_torque_friction", scalar(without, "mean_torque_friction") &
+      if (.not. allocated(error)) call expect_scalar("mean_torque_friction", scalar_of(without, "mean_torque_friction") &
          & + 2.0_wp*torque)
-      if (.not. allocated(error)) call expect_scalar("min_energy_residual", scalar(without, "min_energy_residual"))
+      if (.not. allocated(error)) call expect_scalar("min_energy_residual", scalar_of(without, "min_energy_residual"))
 
    contains
 
@@ -175,19 +176,10 @@ contains
          ! [unit of the scalar]
          real(wp), intent(in) :: expected
 
-         call check(error, abs(scalar(with, name) - expected) <= round_off*abs(expected), name)
+         call check(error, abs(scalar_of(with, name) - expected) <= round_off*abs(expected), name)
       end subroutine expect_scalar
 
    end subroutine test_run
-
-   !> A scalar
-   function scalar(result, name) result(value)
-      type(result_t), intent(in) :: result
-      character(len=*), intent(in) :: name
-      real(wp) :: value
-
-      value = result%summary_values(find_quantity(result%summary, name))
-   end function scalar
 
    subroutine test_host(error)
       type(error_type), allocatable, intent(out) :: error

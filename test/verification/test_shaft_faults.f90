@@ -1,9 +1,11 @@
 !> All followers of a case driven together: outcomes of other shafts, and what is refused without harm.
 module test_shaft_faults
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller, only : wp, error_t, case_t, inputs_t, shaft_simulation_t, shaft_outcome_t, kind_usage, start_shaft, &
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller, only : wp, error_t, case_t, shaft_simulation_t, shaft_outcome_t, kind_usage, start_shaft, &
       & advance_shaft, cam_place, shaft_values
    use deck_cases, only : get_deck_case
+   use closeness, only : expect_error, has_failed
+   use driven_trains, only : steady
    implicit none
    private
 
@@ -19,24 +21,6 @@ contains
          new_unittest("a cam that is not there, and an outcome of no step, are errors", test_values_refused) &
          ]
    end subroutine collect_shaft_faults
-
-   !> Inputs of a case that do not change.
-   pure function steady(the_case) result(inputs)
-      type(case_t), intent(in) :: the_case
-      type(inputs_t) :: inputs
-
-      inputs%speed = the_case%operating_point%speed
-      inputs%oil_temperature = the_case%operating_point%oil_temperature
-   end function steady
-
-   !> Report what went wrong, where something did.
-   logical function has_failed(failure, error)
-      type(error_t), allocatable, intent(in) :: failure
-      type(error_type), allocatable, intent(out) :: error
-
-      has_failed = allocated(failure)
-      if (has_failed) call test_failed(error, failure%message)
-   end function has_failed
 
    !> Two bearings, then four, none with series and two again, against outcomes of their own.
    subroutine test_reused(error)
@@ -105,37 +89,24 @@ contains
       if (has_failed(failure, error)) return
       do cam = 0, 1
          call shaft_values(shaft, cam, outcome, values, failure)
-         call check_refusal("no step", "advance_shaft")
+         if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "advance_shaft")
          call shaft_values(shaft, cam, outcome, values)
          if (.not. allocated(error)) call check(error, size(values), 0)
          call shaft_values(unstarted, cam, outcome, values, failure)
-         call check_refusal("no start", "start_shaft")
+         if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "start_shaft")
       end do
       do cam = -1, 4, 5
          call shaft_values(shaft, cam, outcome, values, failure)
-         call check_refusal("no cam", "there is no cam")
+         if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "there is no cam")
       end do
       do cam = 0, 4, 4
          call cam_place(shaft, cam, lobe, camshaft, phase, failure)
-         call check_refusal("no cam", "there is no cam")
+         if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "there is no cam")
          call cam_place(shaft, cam, lobe, camshaft, phase)
          if (.not. allocated(error)) call check(error, lobe, 0)
       end do
       call cam_place(unstarted, 1, lobe, camshaft, phase, failure)
-      call check_refusal("no start", "start_shaft")
-
-   contains
-
-      !> The last call was refused, with a word in the message.
-      subroutine check_refusal(what, word)
-         character(len=*), intent(in) :: what, word
-
-         if (allocated(error)) return
-         call check(error, allocated(failure), what//" was not refused")
-         if (allocated(error)) return
-         call check(error, failure%kind == kind_usage .and. index(failure%message, word) > 0, failure%message)
-      end subroutine check_refusal
-
+      if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "start_shaft")
    end subroutine test_values_refused
 
 end module test_shaft_faults

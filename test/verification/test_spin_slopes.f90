@@ -41,13 +41,12 @@ contains
          new_unittest("slopes with energy 'source'", test_source), &
          new_unittest("slopes with gas force, with yielding asperities, and without asperities, bearing and guide", test_effects), &
          new_unittest("slopes with friction at valve tip, seal, guide and pivot, and needle drag", test_with_joints), &
-         new_unittest("slopes with heat of inlet and contact, for every film, viscosity and shear law", test_with_heat), &
+         new_unittest("slopes with heat of inlet and contact, with a tilted crown and with both, for every film law", &
+            & test_heat_and_profile), &
          new_unittest("slopes with a limit of the stress at each point, for every viscosity and shear law, with and without heat", &
             & test_local_limit), &
          new_unittest("slopes with a law of the boundary coefficient, with and without heat", test_with_boundary_law), &
          new_unittest("slopes with a tribofilm whose thickness changes over the cam", test_with_tribofilm), &
-         new_unittest("slopes with a tilted crown, for every film and rolling law", test_with_profile), &
-         new_unittest("slopes with heat and a tilted crown at once, for every film law", test_with_heat_and_profile), &
          new_unittest("slopes with an oil film on the roller's pin, for both of its laws", test_with_pin_film), &
          new_unittest("slopes with a given fraction of the boundary friction, as in sliding and sticking", test_given_share), &
          new_unittest("slopes without contact are those of the kinematics", test_no_contact) &
@@ -180,28 +179,33 @@ contains
       end do
    end subroutine test_with_joints
 
-   subroutine test_with_heat(error)
+   subroutine test_heat_and_profile(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
       type(model_t) :: model
-      integer :: law
+      character(len=*), parameter :: names(3) = [character(len=16) :: "heat", "profile", "heat and profile"]
+      integer :: law, effects
 
-      do law = 1, size(film_law_names)
-         case = skewed_case(rotation_names(1 + mod(law, 2)))
-         case%film%law = film_law_names(law)
-         case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
-         case%traction%shear_law = merge("newtonian", "eyring   ", law < 4)
-         case%traction%eyring_stress = 5.0e6_wp
-         case%asperity%film_shear_strength = 2.0e6_wp
-         call add_heat(case)
-         if (law == 2) case%heat%inlet_law = "murch_wilson"
-         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
-         call make_model(case, model, error)
-         if (allocated(error)) return
-         call compare(error, model, "heat, "//trim(film_law_names(law)))
-         if (allocated(error)) return
+      do effects = 1, 3
+         do law = 1, size(film_law_names)
+            case = skewed_case(rotation_names(1 + mod(law, 2)))
+            case%film%law = film_law_names(law)
+            case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
+            case%traction%shear_law = merge("newtonian", "eyring   ", law < 4)
+            case%traction%eyring_stress = 5.0e6_wp
+            if (effects == 2) case%traction%rolling_law = rolling_law_names(1 + mod(law, size(rolling_law_names)))
+            case%asperity%film_shear_strength = 2.0e6_wp
+            if (effects /= 2) call add_heat(case)
+            if (effects == 1 .and. law == 2) case%heat%inlet_law = "murch_wilson"
+            if (effects /= 1) call add_profile(case)
+            call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
+            call make_model(case, model, error)
+            if (allocated(error)) return
+            call compare(error, model, trim(names(effects))//", "//trim(film_law_names(law)))
+            if (allocated(error)) return
+         end do
       end do
-   end subroutine test_with_heat
+   end subroutine test_heat_and_profile
 
    subroutine test_local_limit(error)
       type(error_type), allocatable, intent(out) :: error
@@ -272,49 +276,6 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_with_tribofilm
-
-   subroutine test_with_profile(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(model_t) :: model
-      integer :: law
-
-      do law = 1, size(film_law_names)
-         case = skewed_case(rotation_names(1 + mod(law, 2)))
-         case%film%law = film_law_names(law)
-         case%traction%rolling_law = rolling_law_names(1 + mod(law, size(rolling_law_names)))
-         case%asperity%film_shear_strength = 2.0e6_wp
-         call add_profile(case)
-         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
-         call make_model(case, model, error)
-         if (allocated(error)) return
-         call compare(error, model, "profile, "//trim(film_law_names(law)))
-         if (allocated(error)) return
-      end do
-   end subroutine test_with_profile
-
-   subroutine test_with_heat_and_profile(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(model_t) :: model
-      integer :: law
-
-      do law = 1, size(film_law_names)
-         case = skewed_case(rotation_names(1 + mod(law, 2)))
-         case%film%law = film_law_names(law)
-         case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
-         case%traction%shear_law = merge("newtonian", "eyring   ", law < 4)
-         case%traction%eyring_stress = 5.0e6_wp
-         case%asperity%film_shear_strength = 2.0e6_wp
-         call add_heat(case)
-         call add_profile(case)
-         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
-         call make_model(case, model, error)
-         if (allocated(error)) return
-         call compare(error, model, "heat and profile, "//trim(film_law_names(law)))
-         if (allocated(error)) return
-      end do
-   end subroutine test_with_heat_and_profile
 
    subroutine test_with_pin_film(error)
       type(error_type), allocatable, intent(out) :: error

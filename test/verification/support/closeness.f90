@@ -6,7 +6,7 @@ module closeness
    implicit none
    private
 
-   public :: check_close, check_scaled, expect_success, expect_error, roundings
+   public :: check_close, check_scaled, expect_success, has_failed, expect_error, roundings
 
    !> A hundred roundings: tolerance of values that two orders of the same operations give [-]
    real(wp), parameter :: roundings = 100.0_wp*epsilon(1.0_wp)
@@ -55,6 +55,17 @@ contains
 
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine expect_success
+
+   !> Has a call failed? Then the test has, with its message.
+   logical function has_failed(failure, error)
+      !> What the library says
+      type(error_t), allocatable, intent(in) :: failure
+      !> Failure of the test
+      type(error_type), allocatable, intent(out) :: error
+
+      call expect_success(error, failure)
+      has_failed = allocated(error)
+   end function has_failed
 
    !> An error of a kind, with words in its message.
    subroutine expect_error(error, failure, kind, words)
