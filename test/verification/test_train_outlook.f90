@@ -5,6 +5,7 @@ module test_train_outlook
    use camroller_case, only : case_t
    use camroller_kinematics, only : position_t
    use camroller_model, only : evaluate_geometry, model_t
+   use camroller_spring_modes, only : new_spring_modes, spring_modes_t, spring_surge_t
    use camroller_train_outlook, only : find_outlook, largest_response, outlook_t
    use reference_cases, only : thesis_case, make_model, set_point
    use flexible_cases, only : add_dynamics
@@ -25,6 +26,7 @@ contains
          new_unittest("natural frequencies of the reference train, with fixed pivot and with adjuster, agree with the reference", &
             & test_frequencies), &
          new_unittest("load factors of the reference train agree with the reference within one per cent", test_load_factors), &
+         new_unittest("surge forced by one harmonic of the lift agrees with the closed form", test_one_harmonic), &
          new_unittest("surge is the sum of the closed responses to the harmonics of the lift", test_surge), &
          new_unittest("a train of unknown mass has no estimate", test_unknown) &
          ]
@@ -129,6 +131,31 @@ contains
          end do
       end do
    end subroutine test_load_factors
+
+   !> Each harmonic alone in resonance with the first mode of a spring of 36 g and 25 kN/m: `k L_h/zeta`.
+   subroutine test_one_harmonic(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: harmonics(5) = [8, 9, 10, 11, 12], n = 7200
+      ! Lift harmonics of the reference train [um] and forces at resonance [N]
+      real(wp), parameter :: lifts(5) = [33.1030_wp, 11.2094_wp, 4.9464_wp, 6.6546_wp, 1.5177_wp]
+      real(wp), parameter :: forces(5) = [82.7575_wp, 28.0235_wp, 12.3660_wp, 16.6364_wp, 3.7943_wp]
+      type(spring_modes_t) :: modes
+      ! Second derivative of the lift over time [m/s^2], force [N]
+      real(wp) :: lift(n), force
+      integer :: i, k
+
+      call new_spring_modes(modes, spring_surge_t(mass=0.036_wp), 25.0e3_wp)
+      associate (frequency => modes%frequency(1))
+         do i = 1, 5
+            lift = -1.0e-6_wp*lifts(i)*frequency**2*[(cos(two_pi*harmonics(i)*real(k - 1, wp)/n), k=1, n)]
+            force = modes%stiffness*pi*largest_response(2.0_wp*modes%share(1)*lift, frequency, modes%damping_ratio, &
+               & two_pi*harmonics(i)/(n*frequency), is_either_side=.true.)
+            ! The lifts have five digits; lines between 600 points of a wave and more take 1e-5 of it
+            call check_close(error, force, forces(i), 4.0e-5_wp, "surge in resonance")
+            if (allocated(error)) return
+         end do
+      end associate
+   end subroutine test_one_harmonic
 
    !> Harmonics 8 to 12 of the lift drive the spring's first mode of 416.667 Hz in resonance; the sum of the closed responses to all
    !> harmonics against the response in time.
