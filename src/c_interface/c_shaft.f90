@@ -169,8 +169,7 @@ contains
       if (.not. allocated(failure)) call take_inputs(finish, ends(2), failure)
       if (.not. allocated(failure) .and. c_associated(outcome)) then
          call c_f_pointer(outcome, filled)
-         if (all(filled%size /= storage_size(filled)/8 - [0, size_of_others])) &
-            & call refuse_size("camroller_shaft_outcome", failure)
+         if (all(filled%size /= storage_size(filled)/8 - [0, size_of_others])) call refuse_size("camroller_shaft_outcome", failure)
       end if
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)

@@ -468,8 +468,8 @@ contains
       ! Where the oil has no viscosity is found before the step goes near it
       do i = 1, 2
          if (allocated(error)) return
-         if (abs(temperatures(i) - simulation%follower%point%oil_temperature) > 0.0_wp) &
-            & call get_oil(simulation%follower%model%lubricant, temperatures(i), oil, error)
+         if (abs(temperatures(i) - simulation%follower%point%oil_temperature) <= 0.0_wp) cycle
+         call get_oil(simulation%follower%model%lubricant, temperatures(i), oil, error)
       end do
    end subroutine check_inputs
 
