@@ -118,7 +118,7 @@ contains
       call new_sample(result, 1, 4)
       allocate (layout%angle(0), layout%series(0), layout%history(0))
       layout%summary = result%summary
-      call add_remark(result%remarks, missed_means, "the means", 0.1_wp)
+      call add_remark(result%remarks, missed_means, "the means", 0.1_wp, 0.7_wp)
       call add_remark(result%remarks, missing_profiles, "no profiles")
       result%remarks(1)%lobe = 2
       call begin_cases(record, 1)
@@ -131,7 +131,8 @@ contains
       call check(error, all(outcome%remarks%kind == [missed_means, missing_profiles]) .and. all(outcome%remarks%lobe == [2, 0]), &
          & "kinds and lobe shapes")
       if (allocated(error)) return
-      call check(error, all(abs(outcome%remarks%size - [0.1_wp, 0.0_wp]) <= 0.0_wp), "numbers")
+      call check(error, all(abs(outcome%remarks%size - [0.1_wp, 0.0_wp]) <= 0.0_wp) &
+         & .and. all(abs(outcome%remarks%excess - [0.7_wp, 0.0_wp]) <= 0.0_wp), "numbers")
       if (allocated(error)) return
       call check(error, all(transfer(outcome%summary, [0_int64]) == transfer(result%summary_values, [0_int64])) .and. &
          & .not. record%is_short, "what comes behind")
