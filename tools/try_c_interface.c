@@ -192,7 +192,7 @@ static void test_simulation(const camroller_case *self) {
    CHECK(camroller_simulation_step(simulation, 1.1, &start, &end, &outcome, &error) == 0);
    CHECK(outcome.mean_torque_friction > 0.0 && outcome.contact_load[0] <= outcome.contact_load[1]);
    CHECK(fabs(outcome.torques[0] + outcome.torques[1] + outcome.torques[2] + outcome.torques[3] + outcome.torques[4]
-              - outcome.torque_drive) < 1e-12);
+              + outcome.torque_others - outcome.torque_drive) < 1e-12);
    CHECK(camroller_simulation_value(simulation, "contact_load", &value, &error) == 0);
    CHECK(value > 0.0 && fabs(hypot(outcome.cam_force[0], outcome.cam_force[1]) / value - 1.0) < 0.1);
    CHECK(camroller_simulation_step(simulation, 1.2, &start, &end, NULL, NULL) == 0);
@@ -215,8 +215,11 @@ static void test_simulation(const camroller_case *self) {
    REFUSED(CAMROLLER_USAGE, "small", camroller_simulation_save, simulation, block, bytes - 1);
    REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_save, NULL, block, bytes);
    REFUSED(CAMROLLER_USAGE, "'buffer'", camroller_simulation_save, simulation, NULL, bytes);
-   CHECK(camroller_simulation_copy(simulation, &copy, &error) == 0);
+   /* what cannot be made leaves NULL, not what was there */
+   copy = (camroller_simulation *)block;
    REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_copy, NULL, &copy);
+   CHECK(copy == NULL);
+   CHECK(camroller_simulation_copy(simulation, &copy, &error) == 0);
    REFUSED(CAMROLLER_USAGE, "'out'", camroller_simulation_copy, simulation, NULL);
    REFUSED(CAMROLLER_USAGE, "size", camroller_simulation_restore, self, block, bytes - 1, &restored);
    block[50] ^= 1;
@@ -400,8 +403,11 @@ static void test_shaft(const char *path, const camroller_case *other) {
    REFUSED(CAMROLLER_USAGE, "small", camroller_shaft_save, shaft, block, bytes - 1);
    REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_save, NULL, block, bytes);
    REFUSED(CAMROLLER_USAGE, "'buffer'", camroller_shaft_save, shaft, NULL, bytes);
-   CHECK(camroller_shaft_copy(shaft, &copy, &error) == 0);
+   /* what cannot be made leaves NULL, not what was there */
+   copy = (camroller_shaft *)block;
    REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_copy, NULL, &copy);
+   CHECK(copy == NULL);
+   CHECK(camroller_shaft_copy(shaft, &copy, &error) == 0);
    REFUSED(CAMROLLER_USAGE, "'out'", camroller_shaft_copy, shaft, NULL);
    REFUSED(CAMROLLER_USAGE, "size", camroller_shaft_restore, self, block, bytes - 1, 1, &restored);
    REFUSED(CAMROLLER_USAGE, "damaged", camroller_shaft_restore, self, block, bytes - 8, 1, &restored);

@@ -43,7 +43,7 @@ module camroller_journal
    real(wp), parameter :: finite_range(2) = [0.1_wp, 1.0_wp]
    !> What to say where it is not
    character(len=*), parameter :: width_advice = "journal bearing law 'finite' covers widths from 0.1 to 1 diameter; "// &
-      & "'short_ocvirk' is for narrower ones, and camshaft bearings of 2 diameters and more have 'long_full_sommerfeld'"
+      & "'short_ocvirk' is for narrower ones, and camshaft bearings of twice that width and more have 'long_full_sommerfeld'"
 
    !> Camshaft and its bearings
    type :: cam_bearings_t

@@ -106,7 +106,7 @@ contains
             buffer = right_text(integer_text(lines(i)%case_number), 4)//right_text(integer_text(lines(i)%lobe), 5)
             do k = 1, 4
                buffer = buffer(:21*k - 12)//right_text(fixed_text(merge(1.0e6_wp, 1.0_wp, k <= 2)*f(k, 1), 4), 11)// &
-                  & right_text(fixed_text(change(f(k, :)), 1), 8)//" %"
+                  & right_text(fixed_text(change(f(k, 1), f(k, 2)), 1), 8)//" %"
             end do
          end associate
          text = text//n//trim(buffer)
@@ -115,14 +115,14 @@ contains
    end subroutine write_friction
 
    !> Change from the first to the second number in percent.
-   pure function change(pair)
+   pure function change(first, second)
       !> Both numbers [any]
-      real(wp), intent(in) :: pair(2)
+      real(wp), intent(in) :: first, second
       !> The change [%]
       real(wp) :: change
 
       change = 0.0_wp
-      if (abs(pair(1)) > 0.0_wp) change = 100.0_wp*(pair(2)/pair(1) - 1.0_wp)
+      if (abs(first) > 0.0_wp) change = 100.0_wp*(second/first - 1.0_wp)
    end function change
 
 end module camroller_ehl_page
