@@ -147,7 +147,7 @@ wait_for_jobs() { # seconds
 submit() { timeout 20 sbatch --parsable --open-mode=append --chdir="$folder" --output="$folder/job-%A-%a.txt" "$@"; }
 
 same_file() { # one file, another
-    PYTHONPATH=test/python "$python" -c "
+    PYTHONPATH=test:test/python "$python" -c "
 import sys
 import sweeps
 def content(path):
@@ -182,7 +182,7 @@ say "$(sinfo -h -o 'node %N, %c cores, %T'), version $(sinfo --version | cut -d 
 
 export CAMROLLER=$program CAMROLLER_MPI=$mpi_program CAMROLLER_SLURM=$PWD/slurm
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-PYTHONPATH=test/python "$python" -c "
+PYTHONPATH=test:test/python "$python" -c "
 import pathlib, sweeps
 for name, count in (('deck', 60), ('long', 200)):
     sweeps.write_deck(pathlib.Path(f'$folder/{name}.nml'), sweeps.GRID.replace('count_1 = 6', f'count_1 = {count}'))"
