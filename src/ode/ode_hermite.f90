@@ -30,8 +30,11 @@ module camroller_ode_hermite
 
    !> The method
    type, extends(method_t) :: hermite_method_t
-      !> Start of the step before; start and end of the step tried last
-      type(point_t) :: before, start, end
+      !> Start of the step before. Allocatable, since gfortran 12 does not free the rates of `method_t` with a type that has no
+      !> allocatable component of its own
+      type(point_t), allocatable :: before
+      !> Start and end of the step tried last
+      type(point_t) :: start, end
    contains
       procedure :: try_step => try_hermite_step
       procedure :: forget => forget_points
@@ -64,7 +67,7 @@ contains
       method%proportional = 1.0_wp
       method%integral = 0.0_wp
       method%has_curve = .true.
-      allocate (method%bends(1, curve_numbers))
+      allocate (method%before, method%bends(1, curve_numbers))
    end subroutine new_hermite_method
 
    !> Forget the points of earlier steps.
