@@ -118,7 +118,7 @@ contains
          call new_cvode(contestant%cvode, task%problem, size(task%first_state), index(name, "slope") > 0, &
             & index(name, "restart") > 0)
       else
-         call new_own(contestant%own, name, size(task%first_state), error)
+         call new_own(contestant%own, name, size(task%first_state), task%problem%integrals, error)
          if (allocated(error)) return
       end if
       do i = 0, per_decade*decades

@@ -26,17 +26,19 @@ module bench_own
 contains
 
    !> Make a solver from a method's name.
-   subroutine new_own(solver, name, components, error)
+   subroutine new_own(solver, name, components, integrals, error)
       !> Solver
       type(own_t), intent(out) :: solver
       !> Name of the method
       character(len=*), intent(in) :: name
       !> Number of components of the state
       integer, intent(in) :: components
+      !> How many of them are integrals
+      integer, intent(in) :: integrals
       !> Deck error for an unknown name
       type(error_t), allocatable, intent(out) :: error
 
-      call new_method(solver%method, name, components, error)
+      call new_method(solver%method, name, components, error, integrals)
    end subroutine new_own
 
    !> Integrate and interpolate.

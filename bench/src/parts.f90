@@ -56,7 +56,7 @@ contains
       real(wp), allocatable :: stops(:)
       integer :: round
 
-      call new_own(own, chosen, 1, error)
+      call new_own(own, chosen, 1, 0, error)
       if (allocated(error)) return
       allocate (output(1, size(task%angles)))
       do round = 1, rounds

@@ -1,6 +1,6 @@
 !> A closed-form problem for the spin of the roller: kinematics of the thesis, no load share, no feedback of friction on load.
 !>
-!> Stated in full in `test/reference/roller_problem_reference.py`. State: spin of the roller [rad/s].
+!> Stated in full in `test/reference/roller_problem_reference.py`. State: spin of the roller [rad/s] and energy lost [J].
 module bench_roller_problem
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_ode_problem, only : problem_t, linear_t, counters_t, words_length
@@ -11,7 +11,7 @@ module bench_roller_problem
    implicit none
    private
 
-   public :: roller_problem_t, new_roller_problem, roller_stops, pure_rolling_spin, sliding_speed_at, loss_rate_at
+   public :: roller_problem_t, new_roller_problem, roller_stops, pure_rolling_spin, sliding_speed_at
 
    !> Points of the rule over the pressure profile
    integer, parameter :: points = 16
@@ -78,18 +78,19 @@ contains
       problem%speed = speed
       problem%cosines = cos(0.5_wp*pi*nodes)
       problem%weights = 0.5_wp*pi*weights*problem%cosines
-      problem%small_state = [1.0e-3_wp*speed]
+      problem%integrals = 1
+      problem%small_state = [1.0e-3_wp*speed, 1.0e-3_wp]
    end subroutine new_roller_problem
 
-   !> Rate of the spin over the cam angle.
+   !> Rates of spin and loss over the cam angle.
    subroutine get_rate(self, time, state, rate, status)
       !> The problem
       class(roller_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
-      !> Spin [rad/s]
+      !> Spin [rad/s], loss [J]
       real(wp), intent(in) :: state(:)
-      !> Its rate [1/s]
+      !> Their rates [1/s], [J/rad]
       real(wp), intent(out) :: rate(:)
       !> 0 fine, negative: out of reach
       integer, intent(out) :: status
@@ -98,20 +99,20 @@ contains
 
       rate = 0.0_wp
       call evaluate_forces(self, time, state(1), forces, status)
-      if (status == 0) rate = rate_of(self, forces)
+      if (status == 0) rate = rates_of(self, forces, state(1))
    end subroutine get_rate
 
-   !> Rate with its exact derivatives.
+   !> Rates with their exact derivatives.
    subroutine linearise(self, time, state, horizon, linear, counters, status)
       !> The problem
       class(roller_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
-      !> Spin [rad/s]
+      !> Spin [rad/s], loss [J]
       real(wp), intent(in) :: state(:)
       !> Cam angle up to which the right-hand side is smooth [rad]; not needed
       real(wp), intent(in) :: horizon
-      !> Rate with its derivatives; has its room
+      !> Rates with their derivatives; has its room
       type(linear_t), intent(inout) :: linear
       !> Work done
       type(counters_t), intent(inout) :: counters
@@ -124,9 +125,10 @@ contains
       counters%jacobians = counters%jacobians + 1
       call evaluate_forces(self, time, state(1), forces, status)
       if (status /= 0) return
-      linear%rate = rate_of(self, forces)
-      linear%jacobian = change_of(self, forces, state(1), 1.0_wp, 0.0_wp)
-      linear%time_slope = change_of(self, forces, state(1), 0.0_wp, 1.0_wp) + 0.0_wp*horizon
+      linear%rate = rates_of(self, forces, state(1))
+      linear%jacobian = 0.0_wp
+      linear%jacobian(:, 1) = changes_of(self, forces, state(1), 1.0_wp, 0.0_wp)
+      linear%time_slope = changes_of(self, forces, state(1), 0.0_wp, 1.0_wp) + 0.0_wp*horizon
    end subroutine linearise
 
    !> Decay rate of the spin at constant film.
@@ -135,7 +137,7 @@ contains
       class(roller_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
-      !> Spin [rad/s]
+      !> Spin [rad/s], loss [J]
       real(wp), intent(in) :: state(:)
       !> Decay rate [1/rad]
       real(wp), intent(out) :: decay_rate
@@ -150,20 +152,23 @@ contains
          & + boundary*forces%asperity_load*(1.0_wp - forces%boundary_share**2)/mobilising_speed)
    end subroutine get_decay_rate
 
-   !> Rate that forces make.
-   pure function rate_of(problem, forces) result(rate)
+   !> Rates that forces make.
+   pure function rates_of(problem, forces, spin) result(rate)
       !> The problem
       type(roller_problem_t), intent(in) :: problem
       !> Forces
       type(forces_t), intent(in) :: forces
-      !> Rate of the spin [1/s]
-      real(wp) :: rate
+      !> Spin of the roller [rad/s]
+      real(wp), intent(in) :: spin
+      !> Rates of spin and loss [1/s], [J/rad]
+      real(wp) :: rate(2)
 
-      rate = ((forces%traction - forces%rolling)*roller_radius - forces%torque)/(inertia*problem%speed)
-   end function rate_of
+      rate(1) = ((forces%traction - forces%rolling)*roller_radius - forces%torque)/(inertia*problem%speed)
+      rate(2) = (forces%traction*forces%sliding_speed + forces%torque*spin)/problem%speed
+   end function rates_of
 
-   !> Change of the rate with spin and cam angle.
-   pure function change_of(problem, forces, spin, by_spin, by_angle) result(change)
+   !> Changes of the rates with spin and cam angle.
+   pure function changes_of(problem, forces, spin, by_spin, by_angle) result(change)
       !> The problem
       type(roller_problem_t), intent(in) :: problem
       !> Forces
@@ -172,8 +177,8 @@ contains
       real(wp), intent(in) :: spin
       !> Changes of spin [rad/s] and cam angle [rad]
       real(wp), intent(in) :: by_spin, by_angle
-      !> Change of the rate [1/s]
-      real(wp) :: change
+      !> Changes of the rates [1/s], [J/rad]
+      real(wp) :: change(2)
 
       ! Changes of radius, load, speed group and films, logarithms [-]; of sliding speed and entrainment [m/s]
       real(wp) :: radius, load, speed_group, film_min, film_central, sliding, entrainment
@@ -201,8 +206,9 @@ contains
          & + (1.0_wp - forces%boundary_share**2)*sliding/mobilising_speed)
       rolling = forces%rolling*(0.658_wp*speed_group + 0.0126_wp*(load - radius) + radius)
       torque = forces%torque*load + needle*forces%load*needle_radius*(1.0_wp - tanh(spin)**2)*by_spin
-      change = ((traction - rolling)*roller_radius - torque)/(inertia*problem%speed)
-   end function change_of
+      change(1) = ((traction - rolling)*roller_radius - torque)/(inertia*problem%speed)
+      change(2) = (traction*forces%sliding_speed + forces%traction*sliding + torque*spin + forces%torque*by_spin)/problem%speed
+   end function changes_of
 
    !> A cam angle in words.
    function name_time(self, time) result(text)
@@ -355,23 +361,5 @@ contains
       call evaluate_geometry(problem%model, angle, position, status)
       sliding_speed = problem%speed*position%rolling_travel - roller_radius*spin
    end function sliding_speed_at
-
-   !> Loss for a spin over the cam angle.
-   function loss_rate_at(problem, angle, spin) result(rate)
-      !> The problem
-      type(roller_problem_t), intent(in) :: problem
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Spin [rad/s]
-      real(wp), intent(in) :: spin
-      !> Loss over the cam angle [N m]
-      real(wp) :: rate
-
-      type(forces_t) :: forces
-      integer :: status
-
-      call evaluate_forces(problem, angle, spin, forces, status)
-      rate = (forces%traction*forces%sliding_speed + forces%torque*spin)/problem%speed
-   end function loss_rate_at
 
 end module bench_roller_problem

@@ -20,8 +20,7 @@ module bench_tasks
    use camroller_ode_problem, only : problem_t
    use bench_own, only : own_t, new_own, run_own
    use bench_cvode, only : cvode_t, new_cvode, run_cvode, free_cvode
-   use bench_roller_problem, only : roller_problem_t, new_roller_problem, roller_stops, pure_rolling_spin, &
-      & sliding_speed_at, loss_rate_at
+   use bench_roller_problem, only : roller_problem_t, new_roller_problem, roller_stops, pure_rolling_spin, sliding_speed_at
    implicit none
    private
 
@@ -45,7 +44,7 @@ module bench_tasks
       real(wp), allocatable :: first_state(:), scale(:)
       !> Sliding speed [m/s], of a train the contact load [N], at the output angles
       real(wp), allocatable :: sliding_speed(:)
-      !> Mean torque of all losses [N m]; train: mean of the load [N]
+      !> Mean torque of all losses [N m]; roller problem: loss [J]; train: mean of the load [N]
       real(wp) :: loss = 0.0_wp
       !> Processor time of a run beyond which a solver gets no tighter tolerance [s]
       real(wp) :: patience = 0.02_wp
@@ -241,12 +240,12 @@ contains
       task%name = "roller_"//achar(iachar("a") + number - 1)
       task%model => model
       task%stops = roller_stops()
-      task%first_state = [pure_rolling_spin(problem, -pi)]
-      task%scale = [1.0_wp]
+      task%first_state = [pure_rolling_spin(problem, -pi), 0.0_wp]
+      task%scale = [1.0_wp, 0.1_wp]
       task%problem => problem
       call add_reference(task, 2, error)
       if (allocated(error)) return
-      task%scale = [maxval(abs(task%sliding_speed))/model%roller_radius]
+      task%scale = [maxval(abs(task%sliding_speed))/model%roller_radius, task%loss]
       call add_reference(task, 2, error)
    end subroutine add_roller_problem
 
@@ -276,7 +275,7 @@ contains
       tolerance = merge(reference_tolerance, spin_tolerance, turns == 1)
       if (allocated(task%model%flexible)) tolerance = train_tolerance
       call set_accuracy(task, 0.0_wp)
-      call new_own(solver, reference_method, size(task%first_state), error)
+      call new_own(solver, reference_method, size(task%first_state), task%problem%integrals, error)
       if (allocated(error)) return
       call run_own(solver, task%problem, task%stops, task%first_state, tolerance*task%scale, task%angles, states, error)
       if (allocated(error)) return
@@ -344,13 +343,13 @@ contains
       end select
    end function sliding_speeds
 
-   !> Mean torque of the losses over the output angles [N m].
+   !> Mean torque of the losses over the output angles [N m]; roller problem: loss at the end [J].
    function loss_of(task, states) result(loss)
       !> Task
       type(task_t), intent(in) :: task
       !> State at the output angles [state]
       real(wp), intent(in) :: states(:, :)
-      !> Mean torque [N m], of a train the mean load [N]
+      !> Mean torque [N m] or loss [J], of a train the mean load [N]
       real(wp) :: loss
 
       type(state_t) :: state
@@ -360,15 +359,14 @@ contains
          loss = sum(sliding_speeds(task, states))/size(states, 2)
          return
       end if
+      if (size(states, 1) > 1) then
+         loss = states(2, size(states, 2))
+         return
+      end if
       loss = 0.0_wp
       do i = 1, size(states, 2)
-         select type (problem => task%problem)
-         type is (roller_problem_t)
-            loss = loss + loss_rate_at(problem, task%angles(i), states(1, i))/size(states, 2)
-         class default
-            call evaluate_state(task%model, task%angles(i), states(1, i), state, status)
-            loss = loss + state%torque_friction/size(states, 2)
-         end select
+         call evaluate_state(task%model, task%angles(i), states(1, i), state, status)
+         loss = loss + state%torque_friction/size(states, 2)
       end do
    end function loss_of
 

@@ -1,6 +1,6 @@
 !> Exponential Hermite method of order 6, of order 4 in the first step: one evaluation of the rate with derivatives a step.
 !>
-!> In: nothing. Out: a `method_t` for problems of one component.
+!> In: nothing. Out: a `method_t` for problems of one component, which may be followed by integrals over it.
 !> About the start of a step h the rate is `f + J (y - y_n) + v (t - t_n) + R(t)`. The linear part is solved exactly. R, which
 !> vanishes there with its slope, is taken as the polynomial of degree 5 through its values and slopes at the starts of this
 !> step and the one before and at the end of this one:
@@ -13,6 +13,9 @@
 !> and rate. The error estimate is what the formula loses without the slope at the earliest
 !> point (in the first step: without the slope at the end), at the end or in the middle of the step, whichever is larger. No state
 !> but y_n enters, so steps may change at will.
+!>
+!> Components on which no rate depends are integrals: their remainders are polynomials in the same way, and what the first
+!> component adds to them is integrated exactly, with the next function phi.
 !>
 !> The formula is ours; it joins the linearised exponential multistep methods of Hochbruck and Ostermann, BIT Numer. Math. 51
 !> (2011) 889, with second derivatives as in Enright, SIAM J. Numer. Anal. 11 (1974) 321.
@@ -30,11 +33,10 @@ module camroller_ode_hermite
 
    !> The method
    type, extends(method_t) :: hermite_method_t
-      !> Start of the step before. Allocatable, since gfortran 12 does not free the rates of `method_t` with a type that has no
-      !> allocatable component of its own
-      type(point_t), allocatable :: before
-      !> Start and end of the step tried last
-      type(point_t) :: start, end
+      !> Start of the step before; start and end of the step tried last
+      type(point_t) :: before, start, end
+      !> The same of the integrals at the first two of these points; their states do not enter
+      type(point_t), allocatable :: others_before(:), others(:)
    contains
       procedure :: try_step => try_hermite_step
       procedure :: forget => forget_points
@@ -57,9 +59,11 @@ module camroller_ode_hermite
 contains
 
    !> Make the method.
-   subroutine new_hermite_method(method)
+   subroutine new_hermite_method(method, integrals)
       !> The method
       type(hermite_method_t), intent(out) :: method
+      !> Number of components that follow the first and are integrals over it
+      integer, intent(in) :: integrals
 
       method%error_order = first_order
       method%needs_jacobian = .true.
@@ -67,7 +71,7 @@ contains
       method%proportional = 1.0_wp
       method%integral = 0.0_wp
       method%has_curve = .true.
-      allocate (method%before, method%bends(1, curve_numbers))
+      allocate (method%bends(1 + integrals, curve_numbers), method%others_before(integrals), method%others(integrals))
    end subroutine new_hermite_method
 
    !> Forget the points of earlier steps.
@@ -78,6 +82,8 @@ contains
       self%before = point_t()
       self%start = point_t()
       self%end = point_t()
+      self%others_before(:) = point_t()
+      self%others(:) = point_t()
       self%error_order = first_order
    end subroutine forget_points
 
@@ -124,20 +130,20 @@ contains
          new_state(:) = step%state
          new_rate(:) = step%rate
          step%estimate(:) = 0.0_wp
-         call remember(self, step%time, step%state(1), step%rate(1))
+         call remember(self, step%time, step%state(1), step%rate)
          status = 1
          if (h*self%start%slope > largest_growth) return
          phi = phi_functions(6, h*self%start%slope)
          weights = factorials*phi(3:)
          counters%factorisations = counters%factorisations + 1
          linear = step%state(1) + h*(phi(1)*step%rate(1) + h*phi(2)*self%start%time_slope)
-         past = look_back(self%start, self%before, h)
+         past = look_back(self%start, self%before, self%before, self%start%state, h)
          predicted = linear + h*((past%value - past%slope*past%place)*weights(0) + past%slope*weights(1))
          if (.not. abs(predicted) < huge(1.0_wp)) return
          new_state(1) = predicted
          call problem%linearise(step%time + h, new_state, self%horizon, self%there, counters, status)
          if (status /= 0) return
-         call close_remainder(self%there, self%start, h, predicted, past, remainder, follower)
+         call close_remainder(self%there, 1, self%start, self%start%state, h, predicted, past, remainder, follower)
          denominator = 1.0_wp - h*integral_of(follower, past%place, weights)
          status = 1
          if (.not. denominator > least_denominator) return
@@ -148,6 +154,7 @@ contains
          new_rate(:) = self%there%rate + self%there%jacobian(:, 1)*correction
          step%estimate(1) = h*abs(loss_of(self, h, remainder, past%place, weights))
          call bend_curve(self, h, remainder, past%place, new_state(1))
+         if (size(new_state) > 1) call carry_integrals(self, step, predicted, correction, remainder, past%place)
          self%there%rate(:) = new_rate
          self%there%clearance = self%there%clearance - correction
          self%end%time = step%time + h
@@ -159,9 +166,10 @@ contains
    pure subroutine remember(self, time, state, rate)
       !> The method and the derivatives at this point
       type(hermite_method_t), intent(inout) :: self
-      !> Time at the start of the step [time], state there [state], rate there [state/time]
-      real(wp), intent(in) :: time, state, rate
+      !> Time at the start of the step [time], state of the first component there [state], rates there [state/time]
+      real(wp), intent(in) :: time, state, rate(:)
 
+      integer :: i
       ! Is this another try at the same point, does it follow the step before?
       logical :: is_repeated, follows
 
@@ -171,8 +179,68 @@ contains
       self%before = point_t()
       if (follows) self%before = self%start
       self%error_order = merge(later_order, first_order, follows)
-      self%start = point_t(time, state, rate, self%here%jacobian(1, 1), self%here%time_slope(1))
+      self%start = point_t(time, state, rate(1), self%here%jacobian(1, 1), self%here%time_slope(1))
+      do i = 2, size(rate)
+         self%others_before(i - 1) = self%others(i - 1)
+         self%others(i - 1) = point_t(time, 0.0_wp, rate(i), self%here%jacobian(i, 1), self%here%time_slope(i))
+      end do
    end subroutine remember
+
+   !> Components that are integrals over the first: states at the end, error estimates, curves.
+   pure subroutine carry_integrals(self, step, predicted, correction, first, s)
+      !> The method
+      type(hermite_method_t), intent(inout) :: self
+      !> The step, with the first component and all rates at its end; out: with all components and their errors
+      type(step_t), intent(inout) :: step
+      !> First component at the end as predicted, its correction [state]
+      real(wp), intent(in) :: predicted, correction
+      !> Its remainder [state/time]
+      type(remainder_t), intent(in) :: first
+      !> Place of the start of the step before [-]
+      real(wp), intent(in) :: s
+
+      ! Reciprocals of the powers that x^2 to x^5 are integrated to [-]
+      real(wp), parameter :: parts(0:3) = [1.0_wp/3.0_wp, 0.25_wp, 0.2_wp, 1.0_wp/6.0_wp]
+      type(remainder_t) :: remainder, follower, part
+      type(past_t) :: past
+      ! Functions, rates of the first component as factorials times a polynomial [state/time], its integral [state time]
+      real(wp) :: phi(7), rates(0:5), integrals(2)
+      ! Place [-]; change up to the middle and up to the end [state]; what the bends add [state]
+      real(wp) :: place, changes(2), middle, ends
+      integer :: i, k
+
+      rates = [self%start%rate, step%length*self%start%time_slope, factorials*coefficients_of(first, s)]
+      do k = 1, 2
+         place = 0.5_wp*k
+         phi = phi_functions(7, place*step%length*self%start%slope)
+         integrals(k) = (place*step%length)**2*sum(rates*phi(2:)*[1.0_wp, place, place**2, place**3, place**4, place**5])
+      end do
+      do i = 1, size(self%others)
+         past = look_back(self%others(i), self%others_before(i), self%before, self%start%state, step%length)
+         call close_remainder(self%there, i + 1, self%others(i), self%start%state, step%length, predicted, past, remainder, &
+            & follower)
+         call correct_remainder(remainder, follower, correction)
+         do k = 1, 2
+            place = 0.5_wp*k
+            changes(k) = place*step%length*(self%others(i)%rate + place*step%length*self%others(i)%time_slope/2.0_wp &
+               & + place**2*sum(coefficients_of(remainder, s)*parts*[1.0_wp, place, place**2, place**3])) &
+               & + self%others(i)%slope*integrals(k)
+         end do
+         step%new_state(i + 1) = step%new_state(i + 1) + changes(2)
+         if (s > 0.0_wp) part%slope = remainder%slope
+         if (s <= 0.0_wp) part%twist = remainder%twist
+         step%estimate(i + 1) = step%length*(abs(integral_of(part, s, parts)) + abs(self%others(i)%slope)*step%estimate(1))
+         ! the quartic through slopes at both ends and the middle
+         associate (b => self%bends(i + 1, :))
+            b = 0.0_wp
+            b(1) = step%length*self%others(i)%rate - changes(2)
+            middle = 4.0_wp*changes(1) - 2.0_wp*changes(2) - b(1)
+            ends = changes(2) - step%length*step%new_rate(i + 1) - b(1)
+            b(2) = 4.0_wp*middle - ends
+            b(3) = ends - b(2)
+         end associate
+      end do
+   end subroutine carry_integrals
 
    !> What the formula of the next lower order leaves out, at the end or in the middle of the step.
    !>

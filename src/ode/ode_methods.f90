@@ -24,6 +24,8 @@ module camroller_ode_methods
       logical :: is_stiffly_stable
       !> Components it can have at most
       integer :: max_components
+      !> May there be integrals beside these components?
+      logical :: takes_integrals = .false.
    end type method_facts_t
 
    !> No limit to the number of components
@@ -33,7 +35,7 @@ module camroller_ode_methods
    type(method_facts_t), parameter :: method_facts(*) = [ &
       & method_facts_t("rodas5p", 5, 4, .true., unlimited), & ! Steinebach, BIT Numer. Math. 63 (2023) 27
       & method_facts_t("radau5", 5, 3, .true., unlimited), & ! Hairer and Wanner, Solving ODEs II (1996), IV.8
-      & method_facts_t("hermite", 6, 5, .true., 1), & ! Ours; see Hochbruck and Ostermann, BIT 51 (2011) 889
+      & method_facts_t("hermite", 6, 5, .true., 1, takes_integrals=.true.), & ! Ours; see Hochbruck and Ostermann, BIT 51 (2011) 889
       & method_facts_t("dormand_prince", 5, 4, .false., unlimited), & ! Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19
       & method_facts_t("euler", 1, 0, .false., unlimited)] ! Euler (1768), as in the source thesis
 
@@ -43,7 +45,7 @@ module camroller_ode_methods
 contains
 
    !> Make a method by its name.
-   subroutine new_method(method, name, components, error)
+   subroutine new_method(method, name, components, error, integrals)
       !> The method
       class(method_t), allocatable, intent(out) :: method
       !> One of `method_names`
@@ -52,16 +54,20 @@ contains
       integer, intent(in) :: components
       !> Deck error for an unknown name, with the list of the known ones; domain error for too many components
       type(error_t), allocatable, intent(out) :: error
+      !> How many of the components, the last ones, are integrals: no rate depends on them; absent: none is known to be
+      integer, intent(in), optional :: integrals
 
       type(explicit_method_t), allocatable :: explicit_method
       type(rosenbrock_method_t), allocatable :: rosenbrock_method
       type(radau_method_t), allocatable :: radau_method
       type(hermite_method_t), allocatable :: hermite_method
-      integer :: choice
+      integer :: choice, unknowns
 
       call find_name("integration method", name, method_names, choice, error)
       if (allocated(error)) return
-      if (components > method_facts(choice)%max_components) then
+      unknowns = components
+      if (present(integrals) .and. method_facts(choice)%takes_integrals) unknowns = components - integrals
+      if (unknowns > method_facts(choice)%max_components) then
          call raise(error, kind_domain, "integration method '"//trim(name)//"' is for a single unknown")
          return
       end if
@@ -76,7 +82,7 @@ contains
          call move_alloc(radau_method, method)
       case ("hermite")
          allocate (hermite_method)
-         call new_hermite_method(hermite_method)
+         call new_hermite_method(hermite_method, components - 1)
          call move_alloc(hermite_method, method)
       case default
          allocate (explicit_method)

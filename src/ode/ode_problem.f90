@@ -23,6 +23,8 @@ module camroller_ode_problem
       !> Size of each component below which differences between states stop to matter, for difference quotients; 1 where not
       !> allocated [state]
       real(wp), allocatable :: small_state(:)
+      !> Components at the end of the state that are integrals: no rate depends on them
+      integer :: integrals = 0
       !> Barrier, see `get_clearance`: at time zero, huge where there is none [state]; its slope [state/time]
       real(wp) :: barrier = huge(1.0_wp), barrier_slope = 0.0_wp
    contains

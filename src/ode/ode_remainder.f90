@@ -58,9 +58,13 @@ contains
    end function motion_of
 
    !> What the step before says of the remainder of this one.
-   pure function look_back(start, before, step) result(past)
+   pure function look_back(start, before, first, state, step) result(past)
       !> Start of this step and of the one before
       type(point_t), intent(in) :: start, before
+      !> The first component at the start of the step before
+      type(point_t), intent(in) :: first
+      !> The first component at the start of this step [state]
+      real(wp), intent(in) :: state
       !> Size of this step [time]
       real(wp), intent(in) :: step
       !> What it says
@@ -69,41 +73,46 @@ contains
       ! Slope of R with the place, over the place [state/time]
       real(wp) :: slope
 
-      if (before%time > start%time) return
-      associate (back => before%time - start%time, s => past%place)
+      if (first%time > start%time) return
+      associate (back => first%time - start%time, s => past%place)
          s = back/step
-         past%value = (before%rate - start%rate - start%slope*(before%state - start%state) - start%time_slope*back)/s**2
-         slope = step*(before%time_slope - start%time_slope + (before%slope - start%slope)*motion_of(before%rate, &
-            & before%slope, before%time_slope, step))/s
+         past%value = (before%rate - start%rate - start%slope*(first%state - state) - start%time_slope*back)/s**2
+         slope = step*(before%time_slope - start%time_slope + (before%slope - start%slope)*motion_of(first%rate, first%slope, &
+            & first%time_slope, step))/s
          past%slope = (slope - 2.0_wp*past%value)/s
       end associate
    end function look_back
 
-   !> The remainder with what the end says of it, and its derivative over the state there.
-   pure subroutine close_remainder(there, start, step, predicted, past, remainder, follower)
-      !> Rate and derivatives at the end
+   !> The remainder with what the end says of it, and its derivative over the first component there.
+   pure subroutine close_remainder(there, component, start, state, step, predicted, past, remainder, follower)
+      !> Rates and derivatives at the end
       type(linear_t), intent(in) :: there
-      !> Start of the step
+      !> Which component
+      integer, intent(in) :: component
+      !> It at the start
       type(point_t), intent(in) :: start
+      !> First component at the start [state]
+      real(wp), intent(in) :: state
       !> Size of the step [time]
       real(wp), intent(in) :: step
-      !> State where rate and derivatives at the end have been evaluated [state]
+      !> First component where rate and derivatives at the end have been evaluated [state]
       real(wp), intent(in) :: predicted
       !> What the step before says
       type(past_t), intent(in) :: past
       !> The remainder [state/time], its derivative [1/time]
       type(remainder_t), intent(out) :: remainder, follower
 
-      ! Change of the Jacobian, Jacobian at the end [1/time]; slope of R with the place [state/time]
+      ! Change of the Jacobian, Jacobian of the first component [1/time]; slope of R with the place [state/time]
       real(wp) :: change, decay, slope
       ! Distance of the places [-]
       real(wp) :: distance
 
       decay = there%jacobian(1, 1)
-      change = decay - start%slope
-      slope = step*(there%time_slope(1) - start%time_slope &
+      change = there%jacobian(component, 1) - start%slope
+      slope = step*(there%time_slope(component) - start%time_slope &
          & + change*motion_of(there%rate(1), decay, there%time_slope(1), step))
-      remainder%value = there%rate(1) - start%rate - start%slope*(predicted - start%state) - start%time_slope*step
+      remainder%value = there%rate(component) - start%rate - start%slope*(predicted - state) &
+         & - start%time_slope*step
       remainder%slope = slope - 2.0_wp*remainder%value
       ! The derivatives of J and v over the state are not known and left out
       follower%value = change
@@ -119,7 +128,7 @@ contains
       end associate
    end subroutine close_remainder
 
-   !> Move a remainder with a correction of the state at the end.
+   !> Move a remainder with a correction of the first component at the end.
    pure subroutine correct_remainder(remainder, follower, correction)
       !> The remainder [state/time]
       type(remainder_t), intent(inout) :: remainder

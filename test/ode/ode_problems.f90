@@ -5,7 +5,7 @@ module ode_problems
    implicit none
    private
 
-   public :: decay_t, rough_t, line_t, bent_t, power_t, pair_t, switch_t, wall_t
+   public :: decay_t, rough_t, line_t, bent_t, work_t, power_t, pair_t, switch_t, wall_t
 
    !> Calls that a problem has seen
    type, abstract, extends(problem_t) :: counted_t
@@ -45,6 +45,13 @@ module ode_problems
       procedure :: get_rate => bent_rate_of_change
       procedure :: get_jacobian => bent_jacobian
    end type bent_t
+
+   !> Prothero and Robinson's problem with an integral beside it: y1' as in `decay_t`, y2' = y1**2
+   type, extends(decay_t) :: work_t
+   contains
+      procedure :: get_rate => work_rate_of_change
+      procedure :: get_jacobian => work_jacobian
+   end type work_t
 
    !> y' = power t**(power - 1)
    type, extends(counted_t) :: power_t
@@ -173,6 +180,34 @@ contains
       call decay_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
       jacobian = self%factor*jacobian
    end subroutine rough_jacobian
+
+   subroutine work_rate_of_change(self, time, state, rate, status)
+      class(work_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(out) :: rate(:)
+      integer, intent(out) :: status
+
+      call self%count_call()
+      rate = [-self%decay*(state(1) - cos(time)) - sin(time), state(1)**2]
+      status = 0
+   end subroutine work_rate_of_change
+
+   subroutine work_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      class(work_t), intent(in) :: self
+      real(wp), intent(in) :: time, state(:), rate(:), horizon
+      real(wp), intent(out) :: jacobian(:, :), time_slope(:)
+      type(counters_t), intent(inout) :: counters
+      integer, intent(out) :: status
+
+      associate (unused_rate => rate, unused_horizon => horizon)
+      end associate
+      jacobian = 0.0_wp
+      jacobian(:, 1) = [-self%decay, 2.0_wp*state(1)]
+      time_slope = [-self%decay*sin(time) - cos(time), 0.0_wp]
+      counters%jacobians = counters%jacobians + 1
+      status = 0
+   end subroutine work_jacobian
 
    subroutine line_rate_of_change(self, time, state, rate, status)
       class(line_t), intent(in) :: self

@@ -1,4 +1,4 @@
-!> What is peculiar to single methods: functions of the Jacobian, the first step, iterations with a rough Jacobian.
+!> What is peculiar to single methods: functions of the Jacobian, integrals beside the unknown, iterations with a rough Jacobian.
 module test_ode_special
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
@@ -8,7 +8,7 @@ module test_ode_special
    use camroller_ode_methods, only : new_method
    use camroller_phi, only : phi_functions
    use camroller_trajectory, only : trajectory_t, interpolate_state
-   use ode_problems, only : decay_t, line_t, bent_t, rough_t, pair_t
+   use ode_problems, only : decay_t, line_t, bent_t, rough_t, pair_t, work_t
    implicit none
    private
 
@@ -25,6 +25,7 @@ contains
          new_unittest("hermite: linear problems are solved exactly, the layer between the points included", test_hermite_linear), &
          new_unittest("hermite: one evaluation a step", test_hermite_cost), &
          new_unittest("hermite: far from the slow motion a long first step is not tried in vain", test_hermite_start), &
+         new_unittest("hermite: an integral beside the unknown, at its end and between the points", test_hermite_integral), &
          new_unittest("hermite: more than one unknown is refused", test_refusal), &
          new_unittest("radau5: a rough Jacobian costs iterations, not accuracy", test_rough), &
          new_unittest("radau5: without convergence the step becomes smaller", test_no_convergence) &
@@ -89,7 +90,7 @@ contains
       class(method_t), allocatable :: method
       type(options_t) :: options
 
-      call new_method(method, name, size(state), failure)
+      call new_method(method, name, size(state), failure, size(state) - 1)
       if (allocated(failure)) return
       options%tolerance = spread(1.0e3_wp, 1, size(state))
       options%step = 1.0e-3_wp*largest
@@ -184,6 +185,37 @@ contains
       ! A first step of twenty decay lengths is rejected four times until it is short enough
       call check(error, .not. allocated(failure) .and. counters%rejected <= 2 .and. abs(state(1) - exact) < 10.0_wp*tolerance)
    end subroutine test_hermite_start
+
+   subroutine test_hermite_integral(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(work_t) :: problem
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(2), time, errors(2)
+      integer :: i, k, n, hint
+
+      do i = 0, 4
+         problem%decay = 10.0_wp**i
+         do k = 1, 2
+            state = [1.0_wp, 0.0_wp]
+            call integrate_growing(problem, "hermite", 0.1_wp/2**(k - 1), 4.0_wp, state, trajectory, counters, failure)
+            call check(error, .not. allocated(failure), "fails")
+            if (allocated(error)) return
+            errors(k) = 0.0_wp
+            hint = 1
+            do n = 1, 400
+               time = 0.01_wp*n - 1.0e-3_wp
+               call interpolate_state(trajectory, time, hint, state)
+               errors(k) = max(errors(k), abs(state(2) - 0.5_wp*time - 0.25_wp*sin(2.0_wp*time)))
+            end do
+         end do
+         ! the curve is a quartic: the fifth power of the step over 5! with distances below 1/100 and derivatives up to 16,
+         ! times 100 where the decay is of the order of the step
+         call check(error, errors(1) < 1.0e-6_wp .and. errors(2) < errors(1)/8.0_wp, "integral")
+         if (allocated(error)) return
+      end do
+   end subroutine test_hermite_integral
 
    subroutine test_refusal(error)
       type(error_type), allocatable, intent(out) :: error
