@@ -2,9 +2,9 @@
 !>
 !> In: a solved case. Out: the same with these in its shaft, where the case asks for them. Or in: the load on one bearing
 !> over the turn, from wherever. Out: its temperature, orbit, and means.
-!> The temperature of a bearing's oil is the first root of `T = T_supply + rise(T)` above that of the supply. Where an oil film
-!> bears, friction falls and the flow of oil rises with the temperature: there is one root, below the rise that would follow at the
-!> supply's temperature. Where asperities rub, friction rises with the temperature, and the root lies higher.
+!> The temperature of a bearing's oil is a root of `T = T_supply + rise(T)`. Where an oil film bears, friction falls and the flow of
+!> oil rises with the temperature: there is one root, below the rise that would follow at the supply's temperature. Where asperities
+!> rub, friction rises with the temperature, and the root lies higher: it is looked for upwards, in steps of twice what is missing.
 module camroller_bearing_turn
    use camroller_kinds, only : wp, degree, two_pi
    use camroller_bearing_asperity, only : bearing_state_t, carry_load

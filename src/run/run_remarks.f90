@@ -34,7 +34,8 @@ module camroller_run_remarks
    !> Largest load of a train that vibrates over that of a rigid one from where on the rigid one misleads, since friction goes with
    !> the load: twice what the estimate is off by where it is farthest off, 0.05 at 2500 rev/min (doc/dynamics.md) [-]
    real(wp), parameter :: shaken_factor = 1.1_wp
-   !> Mean slip from where on a roller that should stick matters: slips of rollers that do slide are of that order [-]
+   !> Mean slip above which a creeping roller may be taken for one that slides: those of the reference train slip by 3 % and more
+   !> where they do, and by less than 0.1 % where asperities hold them [-]
    real(wp), parameter :: notable_slip = 0.005_wp
 
 contains
