@@ -1,8 +1,8 @@
 !> A number that tells one model from another, to be saved with what was computed with it.
 !>
-!> In: a model as a case makes it, the case. Out: the mark, of states at the operating point of the case, slowly, and in hot oil,
-!> where other parts of the model act, and of what steps may meet elsewhere: the laws of the oil and of boundary friction, the
-!> table of gas pressure, a flexible train. What no state follows is not in it.
+!> In: a model as a case makes it, the case. Out: the mark, of states at the operating point of the case and of slow ones in hot
+!> oil, where surfaces touch, and of what steps may meet elsewhere: the laws of the oil and of boundary friction, the table of
+!> gas pressure, a flexible train. What no state follows is not in it.
 module camroller_model_mark
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp, pi, two_pi
@@ -24,7 +24,7 @@ module camroller_model_mark
    integer(int64), parameter :: beginning = 7237970109966541155_int64
    !> Cam angles at which states make up the mark
    integer, parameter :: places = 36
-   !> Cam speed at which films are so thin that surfaces touch [rad/s], temperature [K]
+   !> Cam speed [rad/s] and temperature [K] at which films are so thin that surfaces touch
    real(wp), parameter :: slow = 1.0_wp, hot = 425.0_wp
    !> Temperatures at which the laws of oil and boundary friction do [K]
    real(wp), parameter :: temperatures(*) = [250.0_wp, 275.0_wp, 300.0_wp, 325.0_wp, 350.0_wp, 375.0_wp, 400.0_wp, 425.0_wp]
@@ -46,15 +46,13 @@ contains
       type(gas_force_t) :: gas
       ! Where the oil has no value, which is part of the mark as well
       type(error_t), allocatable :: error
-      integer(int64) :: parts(5*places, 3)
+      integer(int64) :: parts(5*places, 2)
 
       parts = 0_int64
       call follow_states(model, parts(:, 1))
       other = model
-      call keep_films(other, slow, case%operating_point%oil_temperature, error)
+      call keep_films(other, slow, hot, error)
       if (.not. allocated(error)) call follow_states(other, parts(:, 2))
-      call keep_films(other, model%speed, hot, error)
-      if (.not. allocated(error)) call follow_states(other, parts(:, 3))
       associate (numerics => case%numerics)
          mark = mixed([pack(parts, .true.), transfer([numerics%accuracy, numerics%tolerance], parts), &
             & transfer(numerics%method, parts)])
