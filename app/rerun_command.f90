@@ -27,6 +27,7 @@ module camroller_rerun_command
    use camroller_result_columns, only : check_has_cases, holds_contacts_alone
    use camroller_run_facts, only : find_other_build
    use camroller_settings, only : get_word, take
+   use camroller_sorting, only : find_order
    use camroller_streams, only : print_lines
    use camroller_stop_signal, only : heed_stop_signals
    use camroller_table_file, only : read_heading, table_t
@@ -272,7 +273,7 @@ contains
       loop%profiles = choice
    end subroutine choose_series
 
-   !> Say what came of it.
+   !> Say what came of it, the largest difference first.
    subroutine conclude(config, sink, loop, console, missing, facts, error)
       !> What to do
       type(config_t), intent(in) :: config
@@ -290,6 +291,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: text
+      integer, allocatable :: order(:)
       integer :: i
 
       if (sink%differing == 0 .and. loop%ended == ended_all) then
@@ -305,8 +307,10 @@ contains
       end if
       text = config%subject//": "//integer_text(sink%differing)//" of "//counted(sink%cases, "case")// &
          & agreeing(sink%differing, " differs", " differ")
-      do i = 1, size(sink%differences)
-         associate (difference => sink%differences(i))
+      allocate (order(size(sink%differences)))
+      call find_order(-sink%differences%largest, order)
+      do i = 1, size(order)
+         associate (difference => sink%differences(order(i)))
             text = text//new_line("a")//"  "//difference%name//": in "//counted(difference%cases, "case")//", "
             if (difference%largest < huge(1.0_wp)) then
                text = text//"at most by "//number_text(difference%largest, 2)//" of its value, in case "

@@ -29,7 +29,7 @@ module camroller_comparison_sink
       integer :: cases = 0
       !> Largest difference relative to the larger of both values [-]; huge where one of them is no number
       real(wp) :: largest = 0.0_wp
-      !> Case of the largest difference, from 0
+      !> Case of the largest difference, from 0; the first of several
       integer :: case_number = 0
    end type difference_t
 
@@ -37,7 +37,7 @@ module camroller_comparison_sink
    type, extends(sink_t) :: comparison_sink_t
       !> The result file
       type(hdf5_object_t) :: file
-      !> Quantities that differ
+      !> Quantities that differ, by name
       type(difference_t), allocatable :: differences(:)
       !> Cases compared, cases that differ
       integer :: cases = 0, differing = 0
@@ -134,7 +134,8 @@ contains
          call compare(self, "summary/status", first + i - 2, stored(i), real(outcomes(i)%status, wp), differs(i))
          if (outcomes(i)%status == 0 .or. nint(stored(i)) /= 0) cycle
          self%failing = self%failing + 1
-         if (self%failing > 1) cycle
+         ! Threads bring cases in any order
+         if (self%failing > 1 .and. first + i - 2 > self%first_failing) cycle
          self%first_failing = first + i - 2
          self%message = outcomes(i)%text
       end do
@@ -369,24 +370,34 @@ contains
       logical, intent(inout) :: differs
 
       type(difference_t), allocatable :: longer(:)
+      real(wp) :: relative ! [-]
       integer :: place
+      logical :: is_new
 
       if (transfer(stored, 0_int64) == transfer(computed, 0_int64)) return
       differs = .true.
       if (.not. allocated(self%differences)) allocate (self%differences(0))
-      do place = 1, size(self%differences)
-         if (self%differences(place)%name == name) exit
+      place = 1
+      do while (place <= size(self%differences))
+         if (self%differences(place)%name >= name) exit
+         place = place + 1
       end do
-      if (place > size(self%differences)) then
-         allocate (longer(place))
-         longer(:place - 1) = self%differences
+      is_new = place > size(self%differences)
+      if (.not. is_new) is_new = self%differences(place)%name /= name
+      if (is_new) then
+         allocate (longer(size(self%differences) + 1))
+         longer(:place - 1) = self%differences(:place - 1)
          longer(place)%name = name
+         longer(place + 1:) = self%differences(place:)
          call move_alloc(longer, self%differences)
       end if
+      relative = relative_difference(stored, computed)
       associate (difference => self%differences(place))
          difference%cases = difference%cases + 1
-         if (difference%cases > 1 .and. relative_difference(stored, computed) <= difference%largest) return
-         difference%largest = relative_difference(stored, computed)
+         ! Of equal differences that of the first case, since threads bring cases in any order
+         if (difference%cases > 1 .and. (relative < difference%largest .or. &
+            & .not. relative > difference%largest .and. case_number > difference%case_number)) return
+         difference%largest = relative
          difference%case_number = case_number
       end associate
    end subroutine compare
