@@ -27,7 +27,8 @@ module camroller_model
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : boundary_part_t, new_boundary_part, set_boundary_temperature
    use camroller_number_text, only : number_text
-   use camroller_traction, only : shear_law_names, law_eyring, limit_names, limit_local, cap_names, rolling_law_names
+   use camroller_traction, only : shear_law_names, law_eyring, zone_names, zone_rigid_to_elastic, limit_names, limit_local, &
+      & cap_names, rolling_law_names
    use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
    use camroller_needle, only : bearing_part_t, new_bearing_part, set_bearing_oil
    use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil, set_drag_speed
@@ -51,8 +52,9 @@ module camroller_model
       logical :: has_exact_arm, has_exact_spin
       !> Is the load the larger of base circle load and event load?
       logical :: takes_maximum_load
-      !> Does rolling resistance act on the roller's spin? Is the film's stress limited at each point?
-      logical :: has_rolling_in_balance, has_local_limit
+      !> Does rolling resistance act on the roller's spin? Is the film's stress limited at each point? Is the film sheared over the
+      !> strip from rigid to elastic contacts?
+      logical :: has_rolling_in_balance, has_local_limit, has_wide_shear
       !> End with an error where the film law is used outside its range, where contact is lost?
       logical :: stops_outside_range, stops_without_contact
       !> Positions in the lists of names of the laws
@@ -335,6 +337,9 @@ contains
       end if
       call find_name("shear law", case%traction%shear_law, shear_law_names, model%shear_law, error)
       if (allocated(error)) return
+      call find_name("sheared zone", case%traction%sheared_zone, zone_names, choice, error)
+      if (allocated(error)) return
+      model%has_wide_shear = choice == zone_rigid_to_elastic
       call find_name("traction limit", case%traction%limit, limit_names, choice, error)
       if (allocated(error)) return
       model%has_local_limit = choice == limit_local

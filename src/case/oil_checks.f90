@@ -60,9 +60,11 @@ contains
    end subroutine compare_hths
 
    !> How far the temperature of a case's oil is beyond what its laws are given at, and which of them is the farthest off.
-   subroutine find_far_points(case, distance, words)
+   subroutine find_far_points(case, bearing_rise, distance, words)
       !> The case
       type(case_t), intent(in) :: case
+      !> Largest rise of the oil's temperature in a camshaft bearing; zero where there is none or it is not known [K]
+      real(wp), intent(in) :: bearing_rise
       !> Way beyond the points, 0 where none is far [K]
       real(wp), intent(out) :: distance
       !> The same in words; blank where none is far
@@ -71,6 +73,7 @@ contains
       type(oil_t) :: oil
       type(error_t), allocatable :: failure
       character(len=:), allocatable :: viscosity
+      character(len=*), parameter :: hot_bearing = "the viscosity there is that of a law that passes through its points"
 
       distance = 0.0_wp
       words = ""
@@ -80,25 +83,28 @@ contains
          if (.not. allocated(failure)) viscosity = ", "//number_text(1.0e3_wp*oil%viscosity, 3)//" mPa s,"
          viscosity = "the viscosity"//viscosity//" is that of a law that passes through its points"
          if (lubricant%temperature_law == "data_sheet") then
-            call look_at(sheet_temperatures, far_from_sheet, viscosity)
+            call look_at(sheet_temperatures, far_from_sheet, 0.0_wp, viscosity)
+            call look_at(sheet_temperatures, far_from_sheet, bearing_rise, hot_bearing)
          else if (lubricant%temperature_law /= temperature_law_names(law_direct) .and. allocated(lubricant%temperature_points)) then
-            call look_at(lubricant%temperature_points, far_from_points, viscosity)
+            call look_at(lubricant%temperature_points, far_from_points, 0.0_wp, viscosity)
+            call look_at(lubricant%temperature_points, far_from_points, bearing_rise, hot_bearing)
          end if
          if (allocated(lubricant%pressure_viscosity_temperatures)) call look_at(lubricant%pressure_viscosity_temperatures, &
-            & far_from_points, "the pressure-viscosity coefficient is that of a straight line through its points")
+            & far_from_points, 0.0_wp, "the pressure-viscosity coefficient is that of a straight line through its points")
       end associate
       if (.not. allocated(case%boundary_law)) return
       if (case%boundary_law%law == boundary_law_names(boundary_table) .and. allocated(case%boundary_law%temperature_points)) then
-         call look_at(case%boundary_law%temperature_points, far_from_points, "the coefficient of touching asperities is that "// &
-            & "of the nearest temperature in the table of &boundary_law")
+         call look_at(case%boundary_law%temperature_points, far_from_points, 0.0_wp, "the coefficient of "// &
+            & "touching asperities is that of the nearest temperature in the table of &boundary_law")
       end if
 
    contains
 
       !> Compare the oil's temperature with those of points.
-      subroutine look_at(points, far, meaning)
-         !> Temperatures of the points, increasing; way beyond them that is far [K]
-         real(wp), intent(in) :: points(:), far
+      subroutine look_at(points, far, rise, meaning)
+         !> Temperatures of the points, increasing; way beyond them that is far; rise of the oil in a bearing, zero for that around
+         !> it [K]
+         real(wp), intent(in) :: points(:), far, rise
          !> What is taken from them
          character(len=*), intent(in) :: meaning
 
@@ -106,11 +112,12 @@ contains
          real(wp) :: temperature, beyond
 
          if (size(points) == 0) return
-         temperature = case%operating_point%oil_temperature
+         temperature = case%operating_point%oil_temperature + rise
          beyond = max(points(1) - temperature, temperature - points(size(points)))
          if (beyond <= max(far, distance)) return
          distance = beyond
-         words = "the oil temperature, "//number_text(temperature - celsius_zero, 5)//" degC, is "//number_text(beyond, 4)// &
+         words = trim(merge("the oil temperature in a camshaft bearing", "the oil temperature                      ", &
+            & rise > 0.0_wp))//", "//number_text(temperature - celsius_zero, 5)//" degC, is "//number_text(beyond, 4)// &
             & " K "//trim(merge("below", "above", temperature < points(1)))//" all points that are given, "// &
             & number_text(points(1) - celsius_zero, 5)//" to "//number_text(points(size(points)) - celsius_zero, 5)//" degC: "// &
             & meaning//", and may be far off"

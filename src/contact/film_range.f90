@@ -92,7 +92,7 @@ contains
       ! Published bounds of the groups [-]
       real(wp) :: bounds(2, group_count)
       character(len=:), allocatable :: covering
-      integer :: i, other
+      integer :: i, other, laws
 
       words = "in the event and on the base circle"
       if (range%event_share <= 0.0_wp) words = "on the base circle"
@@ -118,15 +118,19 @@ contains
             call append_number(words, bounds(2, i), 3)
          end if
       end do
-      covering = ""
+      ! Laws for smooth surfaces have no bounds of roughness and hardness since they know neither: they stand for none that does
+      if (law == law_masjedi_khonsari_rough) return
+      allocate (character(len=0) :: covering)
+      laws = 0
       do other = 1, size(film_law_names)
          if (other == law .or. other == law_masjedi_khonsari_rough) cycle
          bounds = published_range(other)
          if (any(range%smallest < bounds(1, :)) .or. any(range%largest > bounds(2, :))) cycle
-         if (covering /= "") covering = covering//" and"
+         if (laws > 0) covering = covering//" and"
          covering = covering//" '"//trim(film_law_names(other))//"'"
+         laws = laws + 1
       end do
-      if (covering /= "") words = words//"; film.law"//covering//" covers that"
+      if (laws > 0) words = words//"; film.law"//covering//trim(merge(" cover ", " covers", laws > 1))//" that"
    end subroutine range_in_words
 
 end module camroller_film_range

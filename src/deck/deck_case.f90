@@ -200,6 +200,7 @@ contains
       end if
       call take(settings, "traction", "shear_law", case%traction%shear_law)
       call take(settings, "traction", "eyring_stress_MPa", case%traction%eyring_stress)
+      call take(settings, "traction", "sheared_zone", case%traction%sheared_zone)
       call take(settings, "traction", "limit", case%traction%limit)
       call take(settings, "traction", "limiting_coefficient", case%traction%limiting_coefficient)
       call take(settings, "traction", "limiting_stress_MPa", case%traction%limiting_stress)

@@ -15,7 +15,7 @@ module camroller_deck_keys
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_law_names, range_policy_names
    use camroller_asperity, only : asperity_t, asperity_law_names, boundary_names, mobilisation_names
-   use camroller_traction, only : shear_law_names, limit_names, cap_names, rolling_law_names
+   use camroller_traction, only : shear_law_names, zone_names, limit_names, cap_names, rolling_law_names
    use camroller_journal, only : cam_bearings_t, journal_law_names, journal_motion_names
    use camroller_roller, only : spin_names
    use camroller_deck_asperity, only : add_modifier_keys
@@ -322,8 +322,9 @@ contains
       call add_ehl_keys(schema)
       call add_group(schema, "traction", group_standard, "friction of the film")
       call add_name(schema, "shear_law", shear_law_names, standard%traction%shear_law, "shear of the film")
-      call add_number(schema, "eyring_stress_MPa", positive, "Eyring stress of the oil", &
-         & is_optional=.true.)
+      call add_number(schema, "eyring_stress_MPa", positive, "Eyring stress of the oil", is_optional=.true.)
+      call add_name(schema, "sheared_zone", zone_names, standard%traction%sheared_zone, "strip of the film that is sheared: "// &
+         & "that of the dry contact, or one that is right in nearly rigid contacts as well")
       call add_name(schema, "limit", limit_names, standard%traction%limit, &
          & "what is limited: the traction of all of the film, limiting_coefficient times the load, or the stress at each point")
       call add_number(schema, "limiting_coefficient", positive, &

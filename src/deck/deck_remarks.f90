@@ -354,7 +354,7 @@ contains
          real(wp) :: far ! [K]
 
          case%operating_point%oil_temperature = temperature
-         call find_far_points(case, far, words)
+         call find_far_points(case, 0.0_wp, far, words)
          if (far <= distance) return
          distance = far
          farthest = words

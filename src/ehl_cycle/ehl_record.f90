@@ -148,6 +148,7 @@ contains
          contact%is_touching = now%load > 0.0_wp
          contact%half_width = now%length_scale
          contact%apparent_area = 2.0_wp*now%length_scale*model%contact_width
+         contact%sheared_area = contact%apparent_area
          contact%film_min = now%films%minimum
          contact%film_central = now%films%central
          contact%film_ratio = now%films%minimum/model%roughness

@@ -297,6 +297,7 @@ contains
       contact%length = contact%length*(1.0_wp + basis%parts%lengths_by_load%mean*shift)
       contact%half_width = half_width(contact%load, position%equivalent_radius, contact%length, model%modulus)
       contact%apparent_area = 2.0_wp*contact%half_width*contact%length
+      contact%sheared_area = contact%apparent_area*basis%parts%strip%width
       contact%film_min = contact%film_min*(1.0_wp + slopes%film_ratio*shift)
       contact%film_ratio = contact%film_min/contact%surfaces%roughness
       contact%film_central = contact%film_central*(1.0_wp + slopes%film_central*shift)

@@ -4,12 +4,12 @@ module camroller_contact_state
    use camroller_asperity, only : boundary_friction_t
    use camroller_cam_surface, only : meeting_t
    use camroller_film, only : film_line_t
-   use camroller_load_share, only : share_t
-   use camroller_traction, only : line_lengths_t
+   use camroller_load_share, only : share_t, share_change_t
+   use camroller_traction, only : line_lengths_t, strip_t
    implicit none
    private
 
-   public :: contact_t, setting_t, heat_slopes_t, parts_t, motion_t, slopes_t, length_changes, release_contact
+   public :: contact_t, setting_t, heat_slopes_t, parts_t, motion_t, slopes_t, follow_strip, length_changes, release_contact
 
    !> State of the contact
    type :: contact_t
@@ -27,6 +27,8 @@ module camroller_contact_state
       real(wp) :: load
       !> Half width [m] and apparent area [m^2] of the contact
       real(wp) :: half_width, apparent_area
+      !> Area of the film that is sheared [m^2]
+      real(wp) :: sheared_area
       !> Length of the line contact that stands for the roller: its own, or shorter where the load is not the same along it [m]
       real(wp) :: length
       !> Composite roughness and what covers the surfaces here
@@ -96,6 +98,8 @@ module camroller_contact_state
       type(share_t) :: share
       !> Load over E' R L [-]
       real(wp) :: load_group
+      !> Strip of the film that is sheared
+      type(strip_t) :: strip
       !> Shear of the film after its limit, over all of the contact [N]
       real(wp) :: shear
       !> Derivative of that over the shear before the limit and over the limit [-], and over the sliding speed beside these [N s/m]
@@ -163,6 +167,28 @@ contains
       end associate
    end function length_changes
 
+   !> How the strip that is sheared follows a motion.
+   pure subroutine follow_strip(parts, motion, change, length, pressure, wider, higher)
+      !> What slopes are made of
+      type(parts_t), intent(in) :: parts
+      !> Direction of the motion
+      type(motion_t), intent(in) :: motion
+      !> How film and load share follow it
+      type(share_change_t), intent(in) :: change
+      !> Changes of the contact's length and of the pressure on the dry contact, their logarithms [-]
+      real(wp), intent(in) :: length, pressure
+      !> Changes of the strip's width and pressure over those of the dry contact, their logarithms [-]
+      real(wp), intent(out) :: wider, higher
+
+      ! Changes of load group and rigidity, their logarithms [-]
+      real(wp) :: load_group, rigidity
+
+      load_group = motion%load - motion%radius - length
+      rigidity = motion%entrainment - motion%radius - load_group - change%film_load
+      wider = parts%strip%width_by_rigidity*rigidity + parts%strip%width_by_film*(change%film_central - load_group)
+      higher = parts%strip%pressure_by_rigidity*rigidity + parts%strip%pressure_by_peak*pressure
+   end subroutine follow_strip
+
    !> No contact: no force but the drag of the roller's bearing; the film is reported as zero, since there is none to speak of.
    pure subroutine release_contact(contact)
       !> State of the contact; the speeds are kept
@@ -172,6 +198,7 @@ contains
       contact%load = 0.0_wp
       contact%half_width = 0.0_wp
       contact%apparent_area = 0.0_wp
+      contact%sheared_area = 0.0_wp
       contact%film_min = 0.0_wp
       contact%film_central = 0.0_wp
       contact%film_ratio = 0.0_wp

@@ -12,13 +12,13 @@ module camroller_contact_traction
    use camroller_asperity, only : find_boundary_friction, has_one_coefficient
    use camroller_boundary_law, only : follows_temperature
    use camroller_conjunction, only : hot_oil_t, sheared_film_t, film_shear_t, flash_resistance, film_resistance, hot_shear
-   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_changes
+   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, follow_strip, length_changes
    use camroller_load_share, only : share_change_t
    use camroller_local_limit, only : limited_shear_t, locally_limited_shear, stress_limit_t
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_model, only : model_t
    use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, law_newtonian, &
-      & line_lengths_t
+      & line_lengths_t, sheared_strip
    implicit none
    private
 
@@ -52,6 +52,13 @@ contains
       contact%boundary_mobilised = 0.0_wp
       boundary_slope = 0.0_wp
       peak = film_pressure(contact%load - contact%asperity_load, contact%apparent_area, contact%real_area)
+      contact%sheared_area = contact%apparent_area
+      if (model%has_wide_shear) then
+         call sheared_strip(model%oil, peak, setting%line%groups%speed, parts%load_group, parts%share%film_load, &
+            & parts%share%film_central, parts%strip)
+         contact%sheared_area = contact%apparent_area*parts%strip%width
+         peak = peak*parts%strip%pressure
+      end if
       if (has_hot_film(model)) then
          call flash_resistance(model%heat%band, model%heat%bodies, contact%half_width, [contact%cam_surface_speed, &
             & contact%roller_surface_speed], parts%heat%flash, parts%heat%flash_by_width, parts%heat%flash_by_speed)
@@ -155,7 +162,7 @@ contains
       if (has_hot_film(model)) then
          parts%limit_share = exp(-model%heat%limit_fall*rise)
          limit = limit*parts%limit_share
-         call hot_shear(sheared_film_t(model%shear_law, contact%sliding_speed, peak, contact%apparent_area, contact%film_central, &
+         call hot_shear(sheared_film_t(model%shear_law, contact%sliding_speed, peak, contact%sheared_area, contact%film_central, &
             & model%eyring_stress), model%oil, model%heat%hot, rise, hot)
          parts%free_shear = hot%force
          parts%speed_slope = hot%by_speed
@@ -163,11 +170,11 @@ contains
          rise_slope = hot%by_rise
       else if (model%shear_law == law_newtonian) then
          call mean_relative_viscosity(model%oil, peak, viscosity, viscosity_slope)
-         parts%speed_slope = newtonian_shear(1.0_wp, model%oil%viscosity*viscosity, contact%apparent_area, contact%film_central)
+         parts%speed_slope = newtonian_shear(1.0_wp, model%oil%viscosity*viscosity, contact%sheared_area, contact%film_central)
          parts%free_shear = parts%speed_slope*contact%sliding_speed
          parts%pressure_slope = parts%free_shear*viscosity_slope
       else
-         call eyring_shear(contact%sliding_speed, model%oil, peak, contact%apparent_area, contact%film_central, &
+         call eyring_shear(contact%sliding_speed, model%oil, peak, contact%sheared_area, contact%film_central, &
             & model%eyring_stress, parts%free_shear, parts%speed_slope, parts%pressure_slope)
       end if
       parts%shear = parts%free_shear
@@ -208,7 +215,7 @@ contains
          hot = model%heat%hot
          limit%fall = model%heat%limit_fall
       end if
-      call locally_limited_shear(sheared_film_t(model%shear_law, contact%sliding_speed, peak, contact%apparent_area, &
+      call locally_limited_shear(sheared_film_t(model%shear_law, contact%sliding_speed, peak, contact%sheared_area, &
          & contact%film_central, model%eyring_stress), model%oil, hot, rise, limit, shear)
       parts%shear = shear%force
       parts%free_shear = shear%force
@@ -231,7 +238,7 @@ contains
       real(wp) :: force
 
       force = model%limiting_coefficient*contact%load
-      if (model%has_local_limit) force = force + model%limiting_stress*contact%apparent_area
+      if (model%has_local_limit) force = force + model%limiting_stress*contact%sheared_area
    end function largest_shear
 
    !> Rise of the surfaces' temperature that the heat of friction keeps, whose boundary part follows that temperature, and friction
@@ -375,9 +382,9 @@ contains
 
       ! Changes of the lengths, their logarithms [-]
       type(line_lengths_t) :: lengths
-      ! Changes of apparent area, pressure in the film and central film, their logarithms [-]; of the shear, of boundary friction
-      ! with its limit, and with the part of it that slip mobilises [N]
-      real(wp) :: area, pressure, film, shear, boundary, mobilised
+      ! Changes of apparent area, pressure in the film and central film, of the strip's width and pressure over these, their
+      ! logarithms [-]; of the shear, of boundary friction with its limit, and with the part of it that slip mobilises [N]
+      real(wp) :: area, pressure, film, wider, higher, shear, boundary, mobilised
       ! Change of the limit of boundary friction [N], and with the temperature of the surfaces [N/K]
       real(wp) :: capacity, own
 
@@ -386,7 +393,10 @@ contains
       film = change%film_central + motion%radius
       pressure = change%film_load + motion%radius + lengths%mean - area &
          & + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
-      shear = parts%free_shear*area + parts%pressure_slope*pressure + parts%speed_slope*(motion%sliding_speed &
+      wider = 0.0_wp
+      higher = 0.0_wp
+      if (model%has_wide_shear) call follow_strip(parts, motion, change, lengths%mean, pressure, wider, higher)
+      shear = parts%free_shear*(area + wider) + parts%pressure_slope*(pressure + higher) + parts%speed_slope*(motion%sliding_speed &
          & - contact%sliding_speed*film)
       shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load*parts%limit_share &
          & + parts%by_speed*motion%sliding_speed

@@ -257,7 +257,7 @@ contains
          & position%surface_travel_slope, self%model%has_exact_spin) + factor*slopes%acceleration/self%model%speed)
       linear%span = largest_traction(self%model, position, moments)*self%model%roller_radius*factor/self%model%roller_inertia
       linear%resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
-      if (self%model%has_local_limit) linear%span = linear%span + self%model%limiting_stress*slopes%contact%apparent_area &
+      if (self%model%has_local_limit) linear%span = linear%span + self%model%limiting_stress*slopes%contact%sheared_area &
          & *self%model%roller_radius*factor/self%model%roller_inertia
       linear%clearance = huge(1.0_wp)
       if (slopes%contact%is_touching) linear%clearance = 2.0_wp*slopes%contact%entrainment_speed

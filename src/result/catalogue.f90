@@ -254,7 +254,7 @@ contains
          & "without contact", "film", state%contact%film_ratio)
       if (allocated(case%heat)) call add_heat(list, case, state)
       if (allocated(case%asperity)) call add_asperities(list, case, state)
-      call add(list, "friction_hydrodynamic", "N", "shear force of the film", "traction", state%contact%shear)
+      call add(list, "friction_hydrodynamic", "N", "shear force of the film beside the asperities", "traction", state%contact%shear)
       if (allocated(case%asperity)) then
          call add(list, "friction_boundary", "N", "limit of the boundary friction", "asperity", state%contact%boundary_capacity, &
             & least=least_force)

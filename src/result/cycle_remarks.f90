@@ -16,29 +16,29 @@ module camroller_cycle_remarks
    use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : margins_t
-   use camroller_follower_samples, only : thinnest_film_allowed => thinnest_film
-   use camroller_means, only : statistics_t
+   use camroller_follower_samples, only : liquid_stress, thinnest_film_allowed => thinnest_film
+   use camroller_means, only : has_film_limit, statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
-   use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
+   use camroller_remarks, only : remark_t, add_remark, backward_roller, beyond_pressure_law, cut_off_contact, film_without_limit, &
       & foreign_asperities, hot_film, hot_inlet, lifted_valve, lost_contact, open_pivot, outside_range, pumped_adjuster, &
-      & rolling_out_of_range, rubbing_contact, rubbing_pin, standing_entrainment, unloaded_end, unresolved_slip, yielding_surface
-   use camroller_result, only : find_quantity, lobe_scope, quantity_t
+      & liquid_limit, rigid_contact, rolling_out_of_range, rubbing_contact, rubbing_pin, standing_entrainment, unloaded_end, &
+      & unresolved_slip, yielding_surface
+   use camroller_result, only : lobe_scope
    implicit none
    private
 
-   public :: judge_laws, judge_lobe, judge_films, judge_pin, judge_pressure, judge_extremes
+   public :: judge_laws, judge_lobe, judge_films, judge_pin, judge_pressure
 
    !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
-   !> Film over the equivalent radius beyond which formulas for films say nothing: they hold for gaps that are small against the
-   !> radius, with errors of the order of this ratio [-]
-   real(wp), parameter :: thickest_film = 0.01_wp
    !> Pressure over hardness at which a line contact yields below its surface: 1.8 yield stresses, of which hardness is about three
    !> (Johnson 1985, sections 4.5 and 6.3) [-]; contact stress that the static load rating of roller bearings allows (ISO 76:2006)
    !> [Pa]
    real(wp), parameter :: yield_part = 0.6_wp, static_limit = 4.0e9_wp
+   !> Part of a cycle that is all of it but for rounding [-]
+   real(wp), parameter :: all_of_it = 1.0_wp - 1.0e-9_wp
    !> Intervals without contact that a remark lists
    integer, parameter :: most_intervals = 4
 
@@ -190,16 +190,6 @@ contains
       remarks(last)%lobe = lobe
       remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
    end subroutine judge_pin
-
-   !> Have mean and largest film of a lobe a limit?
-   elemental function has_film_limit(statistics) result(verdict)
-      !> Statistics of the lobe
-      type(statistics_t), intent(in) :: statistics
-      !> True where they have
-      logical :: verdict
-
-      verdict = statistics%thickest_film <= thickest_film .and. statistics%lost_share <= 0.0_wp
-   end function has_film_limit
 
    !> Warn or stop where contact is lost.
    subroutine check_contact(model, cycle, statistics, margins, remarks, error)
@@ -355,12 +345,20 @@ contains
       if (statistics%hot_share > 0.0_wp) call check_hot_film(model, statistics, remarks)
       if (statistics%rolling_share > 0.0_wp) call check_rolling(statistics, remarks)
       if (statistics%thin_share > 0.0_wp) call check_thin_film(allocated(model%boundary), statistics, remarks)
+      if (statistics%rigid_share > 0.0_wp) call check_rigid(statistics, remarks)
+      if (statistics%liquid_share > 0.0_wp) call check_liquid(model, statistics, remarks)
+      if (statistics%backward_share > 0.0_wp) call add_remark(remarks, backward_roller, "the roller turns backwards in its "// &
+         & "finger for "//number_text(100.0_wp*statistics%backward_share, 3)//" % of the cycle: rolling resistance is larger "// &
+         & "there than the shear of the film, which tells of laws beyond what they describe", 100.0_wp*statistics%backward_share)
       if (statistics%film_range%share <= 0.0_wp) return
       call range_in_words(statistics%film_range, model%film_law, words)
       text = "the film law is outside its published range for "
       call append_number(text, 100.0_wp*statistics%film_range%share, 3)
-      text = text//" % of the cycle, first at "
-      call append_cam_angle(text, statistics%first_outside, 1)
+      text = text//" % of the cycle"
+      if (statistics%film_range%share < all_of_it) then
+         text = text//", first at "
+         call append_cam_angle(text, statistics%first_outside, 1)
+      end if
       text = text//", "//words
       if (model%stops_outside_range) then
          call raise(error, kind_domain, text//" (range_policy = 'stop')")
@@ -451,46 +449,40 @@ contains
       call add_remark(remarks, rubbing_contact, text, 100.0_wp*statistics%thin_share)
    end subroutine check_thin_film
 
-   !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
-   !> does that of every film where the largest has no limit. Dampers count by the largest of them: they are one loss together.
-   pure subroutine judge_extremes(series, lowest, highest, statistics)
-      !> The series of the follower
-      type(quantity_t), intent(in) :: series(:)
-      !> Smallest and largest values [unit of the series]
-      real(wp), intent(in) :: lowest(:), highest(:)
-      !> Statistics of the lobe; out: with the largest error
-      type(statistics_t), intent(inout) :: statistics
+   !> Say that the dry contact's strip is used for the shear of a film that is hardly pressed together.
+   subroutine check_rigid(statistics, remarks)
+      !> Means over the cycle of a lobe
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Errors over the range [-]; ranges [unit of the series]
-      real(wp) :: relative(size(series)), ranges(size(series))
-      ! Is a series what a damper loses?
-      logical :: is_damper(size(series))
-      ! Range that counts as none, whose quotients do not overflow [unit of the series]
-      real(wp), parameter :: least = sqrt(tiny(1.0_wp))
-      integer :: i
+      real(wp) :: factor ! [-]
+      logical :: is_large
 
-      ranges = max(highest - lowest, series%least, least)
-      is_damper = [(index(series(i)%name, "damping_power_") > 0, i=1, size(series))]
-      where (is_damper) ranges = maxval(ranges, mask=is_damper)
-      associate (errors => statistics%extreme_errors)
-         do i = 1, size(series)
-            relative(i) = 0.0_wp
-            ! A quantity that is zero throughout has no error
-            if (.not. maxval(errors(:, i)) > 0.0_wp) cycle
-            if (index(series(i)%name, "film_") > 0 .and. .not. has_film_limit(statistics)) then
-               if (lowest(i) > least) relative(i) = errors(1, i)/lowest(i)
-               cycle
-            end if
-            relative(i) = maxval(errors(:, i))/ranges(i)
-            if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
-         end do
-      end associate
-      ! Where oil is missing, so is an opening of the check valve, or a part of one
-      i = find_quantity(series, "check_valve_flow")
-      if (i > 0) relative(i) = max(relative(i), statistics%missing_oil)
-      i = maxloc(relative, 1)
-      statistics%extreme_error = relative(i)
-      statistics%worst_extreme = series(i)%name
-   end subroutine judge_extremes
+      is_large = statistics%rigid_ratio > 1.0_wp
+      factor = merge(statistics%rigid_ratio, 1.0_wp/statistics%rigid_ratio, is_large)
+      call add_remark(remarks, rigid_contact, "the roller slips for "//number_text(100.0_wp*statistics%rigid_share, 3)// &
+         & " % of the cycle where the contact is nearly rigid: the shear of the film over the strip of the dry contact is up "// &
+         & "to "//number_text(factor, 3)//" times too "//merge("large", "small", is_large)//", at "// &
+         & cam_angle_text(statistics%rigid_angle, 1)//", and so slip is too "//merge("small", "large", is_large)// &
+         & "; traction.sheared_zone = 'rigid_to_elastic' is for such contacts", factor)
+   end subroutine check_rigid
+
+   !> Say that the traction of a film is limited whose pressure does not make its oil solid.
+   subroutine check_liquid(model, statistics, remarks)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Means over its cycle
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      call add_remark(remarks, liquid_limit, "traction.limit = 'mean' holds the shear of the film to "// &
+         & number_text(model%limiting_coefficient, 3)//" of the load for "//number_text(100.0_wp*statistics%liquid_share, 3)// &
+         & " % of the cycle at mean stresses below "//number_text(1.0e-6_wp*liquid_stress, 2)//" MPa, down to "// &
+         & number_text(1.0e-6_wp*statistics%least_limit, 2)//" MPa, where oil is liquid and has no such limit, and the roller "// &
+         & "slips too much; 'local' with a limiting_stress_MPa, of some MPa for most oils, has none there", &
+         & 100.0_wp*statistics%liquid_share)
+   end subroutine check_liquid
 
 end module camroller_cycle_remarks

@@ -22,12 +22,12 @@ module camroller_follower_samples
    use camroller_part_series, only : largest_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
-   use camroller_traction, only : rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_resistance, line_lengths_t, &
-      & same_lengths
+   use camroller_traction, only : dry_shear_ratio, film_pressure, rolling_biboulet_houpert, rolling_goksem_hargreaves, &
+      & rolling_resistance, line_lengths_t, same_lengths
    implicit none
    private
 
-   public :: shares_t, add_shares, thinnest_film, follower_samples_t, start_samples, sampled_values, entrainment_t, &
+   public :: shares_t, add_shares, thinnest_film, liquid_stress, follower_samples_t, start_samples, sampled_values, entrainment_t, &
       & entrainment_of, extremes_t, widen, trail_t, contact_ahead, extend_trail
 
    !> Fractions of a cycle without contact and outside the film law's range
@@ -55,6 +55,14 @@ module camroller_follower_samples
       !> Fraction of the cycle with a film below `thinnest_film` of the roughness [-]; the smallest part of it [-], and its cam
       !> angle from full lift [rad]
       real(wp) :: thin_share = 0.0_wp, thinnest_ratio = huge(1.0_wp), thinnest_angle = 0.0_wp
+      !> Fraction of the cycle in which the roller slips where the strip of the dry contact gives a shear off by more than
+      !> `shear_ratio_allowed` [-]; that shear over the one from rigid to elastic contacts where it is farthest off [-], and its cam
+      !> angle from full lift [rad]
+      real(wp) :: rigid_share = 0.0_wp, rigid_ratio = 1.0_wp, rigid_angle = 0.0_wp
+      !> Fraction of the cycle in which the limit of the traction counts below `liquid_stress` [-]; the smallest such limit [Pa]
+      real(wp) :: liquid_share = 0.0_wp, least_limit = huge(1.0_wp)
+      !> Fraction of the cycle in which the roller turns backwards in its finger [-]
+      real(wp) :: backward_share = 0.0_wp
    end type shares_t
 
    !> One point of a cycle, for the search of standstills, of pure rolling, and of ends of the roller that begin to carry load
@@ -121,6 +129,13 @@ module camroller_follower_samples
    !> then share the load as if these still stood on a film. Hot oil at low speed, where roughness is a few times the film, is mixed
    !> friction as the source has it; a tenth is beyond that [-]
    real(wp), parameter :: thinnest_film = 0.1_wp
+   !> Slip from which on the shear of the film has a say in it: where asperities hold the roller it slips by less [-]; error of the
+   !> shear, as a factor, from which on a word is due: twice what the strip from rigid to elastic contacts is off by [-]
+   real(wp), parameter :: notable_slip = 0.01_wp, shear_ratio_allowed = 1.3_wp
+   !> Stress below which oil shears as a liquid whatever its limit is said to be: a fifth of what the limiting stress of oils is
+   !> without pressure, some MPa (Johnson and Tevaarwerk 1977; Bair and Winer 1979) [Pa]; part of its limit at which `tanh` takes a
+   !> tenth of the shear [-]
+   real(wp), parameter :: liquid_stress = 1.0e6_wp, limited_part = 0.52_wp
 
 contains
 
@@ -161,6 +176,8 @@ contains
          if (state%contact%is_touching .and. .not. takes_whole_load(model%film_law)) then
             call note_thin(shares, state%contact%film_ratio, angle, weight)
          end if
+         if (state%contact%is_touching .and. abs(state%contact%sliding_speed) > notable_slip*abs(state%contact%rolling_speed)) &
+            & call note_shear(shares, model, state, groups, angle, weight)
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares
@@ -182,6 +199,46 @@ contains
       shares%thinnest_ratio = film_ratio
       shares%thinnest_angle = angle
    end subroutine note_thin
+
+   !> Note where a roller that slips is driven by laws for other films: the strip of the dry contact, a limit where oil is liquid.
+   pure subroutine note_shear(shares, model, state, groups, angle, weight)
+      !> The fractions
+      class(shares_t), intent(inout) :: shares
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower, whose roller slips in contact
+      type(state_t), intent(in) :: state
+      !> Groups of its film
+      type(groups_t), intent(in) :: groups
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Fraction of the cycle that the state represents [-]
+      real(wp), intent(in) :: weight
+
+      ! Shear by the dry contact's strip over that by the other one [-]; limit of the mean stress [Pa], stress over it [-]
+      real(wp) :: ratio, limit, part
+
+      associate (contact => state%contact)
+         if (.not. model%has_wide_shear) then
+            ratio = dry_shear_ratio(model%oil, film_pressure(contact%load - contact%asperity_load, contact%apparent_area, &
+               & contact%real_area), groups%speed, groups%load, groups%load*(1.0_wp - contact%asperity_load/contact%load), &
+               & contact%film_central/state%position%equivalent_radius)
+            if (abs(log(ratio)) > log(shear_ratio_allowed)) shares%rigid_share = shares%rigid_share + weight
+            if (abs(log(ratio)) > abs(log(shares%rigid_ratio))) then
+               shares%rigid_ratio = ratio
+               shares%rigid_angle = angle
+            end if
+         end if
+         if (contact%relative_spin*contact%rolling_speed < -notable_slip*contact%rolling_speed**2/model%roller_radius) &
+            & shares%backward_share = shares%backward_share + weight
+         if (model%has_local_limit) return
+         limit = model%limiting_coefficient*contact%load/contact%sheared_area
+         part = abs(contact%shear)/(model%limiting_coefficient*contact%load*(1.0_wp - contact%real_area/contact%apparent_area))
+         if (limit >= liquid_stress .or. part < limited_part) return
+         shares%liquid_share = shares%liquid_share + weight
+         shares%least_limit = min(shares%least_limit, limit)
+      end associate
+   end subroutine note_shear
 
    !> Note where a film is warmer than the oil of a hot film is good for.
    subroutine note_hot_film(shares, model, rise, angle, weight)

@@ -28,7 +28,8 @@ module camroller_means
    implicit none
    private
 
-   public :: statistics_t, find_thickest_film, integrate_lobe, integrate_torques, mean_tolerance, stored_torques, mean_sizes
+   public :: statistics_t, find_thickest_film, has_film_limit, integrate_lobe, integrate_torques, mean_tolerance, &
+      & stored_torques, mean_sizes
 
    !> Means over the cycle of one lobe shape
    type, extends(shares_t) :: statistics_t
@@ -72,6 +73,9 @@ module camroller_means
       real(wp) :: first_standstill = 0.0_wp
    end type statistics_t
 
+   !> Film over the equivalent radius beyond which formulas for films say nothing: they hold for gaps that are small against the
+   !> radius, with errors of the order of this ratio [-]
+   real(wp), parameter :: thickest_film = 0.01_wp
    !> Halvings of panels, at most
    integer, parameter, public :: most_halvings = 1000
    !> Times that what is allowed is taken anew from means that have become better
@@ -368,5 +372,15 @@ contains
          end associate
       end associate
    end subroutine find_thickest_film
+
+   !> Have mean and largest film of a lobe a limit?
+   elemental function has_film_limit(statistics) result(verdict)
+      !> Statistics of the lobe
+      type(statistics_t), intent(in) :: statistics
+      !> True where they have
+      logical :: verdict
+
+      verdict = statistics%thickest_film <= thickest_film .and. statistics%lost_share <= 0.0_wp
+   end function has_film_limit
 
 end module camroller_means

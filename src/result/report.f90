@@ -257,11 +257,19 @@ contains
       !> Gets the remark
       type(result_t), intent(inout) :: result
 
-      ! Way beyond the points [K]
-      real(wp) :: distance
+      ! Way beyond the points, largest rise in a bearing [K]
+      real(wp) :: distance, rise
       character(len=:), allocatable :: words
+      integer :: i
 
-      call find_far_points(case, distance, words)
+      rise = 0.0_wp
+      if (allocated(case%bearing_heat)) then
+         do i = 1, size(result%summary)
+            if (index(result%summary(i)%name, "max_bearing_") == 1 .and. index(result%summary(i)%name, "temperature_rise") > 0) &
+               & rise = max(rise, result%summary_values(i))
+         end do
+      end if
+      call find_far_points(case, rise, distance, words)
       if (distance > 0.0_wp) call add_remark(result%remarks, far_temperature, words, distance)
       call judge_estimate(case, distance, words)
       if (distance > 0.0_wp) call add_remark(result%remarks, cold_estimate, words, distance)

@@ -6,14 +6,13 @@ module camroller_series_extremes
    use camroller_camshaft_statistics, only : search_camshaft
    use camroller_catalogue, only : follower_values, lobe_columns, camshaft_columns
    use camroller_cycle, only : state_at
-   use camroller_cycle_remarks, only : judge_extremes
    use camroller_error, only : error_t
    use camroller_extremes, only : samples_t, search_t, add_sample, beside_jump, narrow_search, start_search
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
    use camroller_lobe_curve, only : contact_near, lobe_curve_t
    use camroller_margins, only : margins_t
-   use camroller_means, only : find_thickest_film, statistics_t
+   use camroller_means, only : find_thickest_film, has_film_limit, statistics_t
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t, find_quantity
    use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
@@ -342,5 +341,47 @@ contains
       end associate
       if (.not. allocated(error)) call follower_values(solved%case, solved%models(lobe), state, kept%finer(:, place))
    end subroutine keep_state
+
+   !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
+   !> does that of every film where the largest has no limit. Dampers count by the largest of them: they are one loss together.
+   pure subroutine judge_extremes(series, lowest, highest, statistics)
+      !> The series of the follower
+      type(quantity_t), intent(in) :: series(:)
+      !> Smallest and largest values [unit of the series]
+      real(wp), intent(in) :: lowest(:), highest(:)
+      !> Statistics of the lobe; out: with the largest error
+      type(statistics_t), intent(inout) :: statistics
+
+      ! Errors over the range [-]; ranges [unit of the series]
+      real(wp) :: relative(size(series)), ranges(size(series))
+      ! Is a series what a damper loses?
+      logical :: is_damper(size(series))
+      ! Range that counts as none, whose quotients do not overflow [unit of the series]
+      real(wp), parameter :: least = sqrt(tiny(1.0_wp))
+      integer :: i
+
+      ranges = max(highest - lowest, series%least, least)
+      is_damper = [(index(series(i)%name, "damping_power_") > 0, i=1, size(series))]
+      where (is_damper) ranges = maxval(ranges, mask=is_damper)
+      associate (errors => statistics%extreme_errors)
+         do i = 1, size(series)
+            relative(i) = 0.0_wp
+            ! A quantity that is zero throughout has no error
+            if (.not. maxval(errors(:, i)) > 0.0_wp) cycle
+            if (index(series(i)%name, "film_") > 0 .and. .not. has_film_limit(statistics)) then
+               if (lowest(i) > least) relative(i) = errors(1, i)/lowest(i)
+               cycle
+            end if
+            relative(i) = maxval(errors(:, i))/ranges(i)
+            if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
+         end do
+      end associate
+      ! Where oil is missing, so is an opening of the check valve, or a part of one
+      i = find_quantity(series, "check_valve_flow")
+      if (i > 0) relative(i) = max(relative(i), statistics%missing_oil)
+      i = maxloc(relative, 1)
+      statistics%extreme_error = relative(i)
+      statistics%worst_extreme = series(i)%name
+   end subroutine judge_extremes
 
 end module camroller_series_extremes

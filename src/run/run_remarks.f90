@@ -7,13 +7,14 @@ module camroller_run_remarks
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_asperity, only : asperity_t, mobilisation_names
+   use camroller_boundary_law, only : boundary_law_names, boundary_law_t, boundary_table
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond
    use camroller_axial_setup, only : coupled_width
    use camroller_case, only : case_t, numerics_t
    use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
-   use camroller_remarks, only : add_remark, creeping_roller, deep_wear, idle_roller, loose_tolerance, missed_accuracy, &
-      & missed_extremes, missed_means, narrow_slices, no_period, shaken_train
+   use camroller_remarks, only : add_remark, creeping_roller, foreign_speed, deep_wear, idle_roller, &
+      & loose_tolerance, missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, shaken_train
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
@@ -71,6 +72,7 @@ contains
       end associate
       call judge_stiffness(result)
       call judge_creep(case%asperity, allocated(case%wear), result)
+      if (allocated(case%boundary_law)) call judge_speed(case%boundary_law, result)
    end subroutine judge_assumptions
 
    !> Say that a roller hardly turns.
@@ -84,7 +86,7 @@ contains
          place = find_quantity(result%summary, trim(lobe_prefix(lobe))//"revolution_slip")
          if (place == 0) exit
          associate (slip => result%summary_values(place))
-            if (slip < idle_slip) cycle
+            if (slip < idle_slip .or. slip > 2.0_wp - idle_slip) cycle
             call add_named(result, lobe, idle_roller, "the roller hardly turns: in a turn of the cam it slips by "// &
                & number_text(100.0_wp*slip, 3)//" % of the turns of pure rolling; it is a sliding follower, which heats and "// &
                & "wears its ring at one place, where this is the state of the engine at all", slip)
@@ -169,6 +171,37 @@ contains
             & "that speed, and with mobilisation = 'stick_slip' there are none", 100.0_wp*abs(slip))
       end do
    end subroutine judge_creep
+
+   !> Say that the roller slides all round more slowly than a law of boundary friction has values for.
+   subroutine judge_speed(law, result)
+      !> The law
+      type(boundary_law_t), intent(in) :: law
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+
+      ! Sliding speed, smallest and largest, lowest of the law [m/s]
+      real(wp) :: speeds(2), lowest
+      type(error_t), allocatable :: error
+      character(len=:), allocatable :: prefix, words
+      integer :: lobe
+
+      lowest = law%lowest_speed
+      words = "lowest_speed_m_s, below which the logarithm levels off"
+      if (law%law == boundary_law_names(boundary_table)) then
+         lowest = law%speed_points(1)
+         words = "first speed of the table, whose coefficient holds below it"
+      end if
+      do lobe = 1, size(result%summary)
+         prefix = trim(lobe_prefix(lobe))
+         if (find_quantity(result%summary, "max_"//prefix//"sliding_speed") == 0) exit
+         call get_summary(result, "min_"//prefix//"sliding_speed", speeds(1), error)
+         call get_summary(result, "max_"//prefix//"sliding_speed", speeds(2), error)
+         if (maxval(abs(speeds)) >= lowest) cycle
+         call add_named(result, lobe, foreign_speed, "the roller slides by "//number_text(maxval(abs(speeds)), 3)// &
+            & " m/s at most, all round below "//number_text(lowest, 3)//" m/s, the "//words//": &boundary_law says nothing "// &
+            & "of this case", lowest/max(maxval(abs(speeds)), tiny(lowest)))
+      end do
+   end subroutine judge_speed
 
    !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
    subroutine judge_wear(result)

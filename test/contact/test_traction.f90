@@ -5,7 +5,7 @@ module test_traction
    use camroller_error, only : error_t
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, mean_relative_viscosity
    use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, &
-      & sliding_direction, rolling_resistance, same_lengths, &
+      & sliding_direction, rolling_resistance, same_lengths, sheared_strip, strip_t, &
       cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
    implicit none
    private
@@ -27,6 +27,9 @@ contains
       testsuite = [ &
          new_unittest("the film's half ellipse of pressure carries its load", test_film_pressure), &
          new_unittest("Newtonian shear of a worked example", test_newtonian), &
+         new_unittest("sheared strip: a rigid contact of constant viscosity as by Reynolds' equation", test_rigid_strip), &
+         new_unittest("sheared strip: that of the dry contact in an elastic one", test_elastic_strip), &
+         new_unittest("sheared strip: derivatives agree with differences", test_strip_slopes), &
          new_unittest("an Eyring oil of large stress is Newtonian", test_eyring_newtonian), &
          new_unittest("an Eyring oil under fast shear follows the logarithm", test_eyring_fast), &
          new_unittest("Eyring shear is odd, rises with slip and stays below Newton's", test_eyring_shape), &
@@ -68,6 +71,109 @@ contains
       ! 0.1 m/s over 0.1 um is 1e6 1/s; 100 Pa s makes 1e8 Pa; over 1 mm^2 100 N
       call check(error, newtonian_shear(0.1_wp, 100.0_wp, 1.0e-6_wp, 1.0e-7_wp), 100.0_wp, thr=roundings, rel=.true.)
    end subroutine test_newtonian
+
+   !> With constant viscosity and `dp/dx = 12 eta u (h - h_e)/h^3`, `h = h_0 + x^2/(2 R)`, the pressure ends at h = h_e. Shear and
+   !> largest pressure by quadrature of that, over x = sqrt(2 R h_0) tan(t), are those of the strip.
+   subroutine test_rigid_strip(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_t) :: oil
+      type(strip_t) :: strip
+      integer, parameter :: steps = 20000
+      ! End of the pressure in x/sqrt(2 R h_0) (Martin 1916) and as t; step of t; t; cos^2 t, pressure and its largest value over 12
+      ! eta u sqrt(2 R h_0)/h_0^2; load over that and the length [-]
+      real(wp) :: exit, last, step, t, cos2, pressure, largest, load
+      ! Film over radius, U and W* of it; half ellipse of that load over the largest pressure [-]
+      real(wp) :: film, speed_group, load_group, height
+      integer :: i
+
+      oil%pressure_law = 1
+      oil%pressure_viscosity = 1.0e-30_wp
+      exit = 0.475130_wp
+      last = atan(exit)
+      step = (last + 0.5_wp*pi)/steps
+      pressure = 0.0_wp
+      largest = 0.0_wp
+      load = 0.0_wp
+      do i = 1, steps
+         t = -0.5_wp*pi + (i - 0.5_wp)*step
+         cos2 = cos(t)**2
+         pressure = pressure + 0.5_wp*step*cos2*(1.0_wp - (1.0_wp + exit**2)*cos2)
+         load = load + step*pressure/cos2
+         largest = max(largest, pressure)
+         pressure = pressure + 0.5_wp*step*cos2*(1.0_wp - (1.0_wp + exit**2)*cos2)
+      end do
+      call check(error, abs(pressure) < 1.0e-6_wp, "the pressure does not end where it should")
+      if (allocated(error)) return
+      ! W/L = 12 eta u 2 R/h_0 times that load, so that W* h_0/R = 24 U load
+      film = 1.0e-2_wp
+      speed_group = 1.0e-15_wp
+      load_group = 24.0_wp*speed_group*load/film
+      call sheared_strip(oil, 1.0e8_wp, speed_group, load_group, load_group, film, strip)
+      ! A shear of sqrt(2 R h)/h (last + pi/2) is that of a strip 2 b width wide, with b/R = sqrt(8 W*/pi)
+      call check(error, strip%width*2.0_wp*sqrt(8.0_wp*load_group/pi)/film, (last + 0.5_wp*pi)*sqrt(2.0_wp*film)/film, &
+         & rel=.true., thr=1.0e-3_wp)
+      if (allocated(error)) return
+      ! p_0 of the dry contact over E': sqrt(W*/(2 pi)); the strip's is less than the largest by the part that viscosity relieves
+      height = 12.0_wp*speed_group*sqrt(2.0_wp*film)/film**2*largest/sqrt(load_group/(2.0_wp*pi))
+      call check(error, strip%pressure/0.62_wp, height, rel=.true., thr=1.0e-3_wp)
+   end subroutine test_rigid_strip
+
+   subroutine test_elastic_strip(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_t) :: oil
+      type(strip_t) :: strip
+
+      call make_oil(oil)
+      call sheared_strip(oil, 0.6e9_wp, 1.0e-12_wp, 1.0e-4_wp, 1.0e-4_wp, 2.0e-5_wp, strip)
+      ! M = W*/sqrt(2 U) is 71: what is left of both is of the order 1/M^2
+      call check(error, abs(strip%width - 1.0_wp) < 1.0e-3_wp .and. abs(strip%pressure - 1.0_wp) < 1.0e-3_wp, &
+         & "the strip is not that of the dry contact")
+      if (allocated(error)) return
+      call sheared_strip(oil, 0.6e9_wp, 0.0_wp, 1.0e-4_wp, 1.0e-4_wp, 2.0e-5_wp, strip)
+      call check(error, max(abs(strip%width - 1.0_wp), abs(strip%pressure - 1.0_wp)) <= epsilon(1.0_wp), &
+         & "the strip at standstill is not that of the dry contact")
+   end subroutine test_elastic_strip
+
+   !> Differences over logarithms of U, film and pressure, at rigidities from 1e-2 to 1e2.
+   subroutine test_strip_slopes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_t) :: oil
+      type(strip_t) :: strip, less, more
+      real(wp), parameter :: step = 1.0e-5_wp
+      real(wp) :: speed, peak ! [-], [Pa]
+      integer :: i
+
+      call make_oil(oil)
+      do i = 0, 8
+         speed = 1.0e-11_wp*10.0_wp**(0.5_wp*i - 2.0_wp)
+         peak = 1.0e8_wp*(1 + i)
+         call sheared_strip(oil, peak, speed, 5.0e-6_wp, 4.0e-6_wp, 1.0e-4_wp, strip)
+         call sheared_strip(oil, peak, speed*exp(-step), 5.0e-6_wp, 4.0e-6_wp, 1.0e-4_wp, less)
+         call sheared_strip(oil, peak, speed*exp(step), 5.0e-6_wp, 4.0e-6_wp, 1.0e-4_wp, more)
+         call compare(strip%width_by_rigidity, less%width, more%width)
+         if (.not. allocated(error)) call compare(strip%pressure_by_rigidity, less%pressure, more%pressure)
+         if (allocated(error)) return
+         call sheared_strip(oil, peak, speed, 5.0e-6_wp, 4.0e-6_wp, 1.0e-4_wp*exp(-step), less)
+         call sheared_strip(oil, peak, speed, 5.0e-6_wp, 4.0e-6_wp, 1.0e-4_wp*exp(step), more)
+         call compare(strip%width_by_film, less%width, more%width)
+         if (allocated(error)) return
+         call sheared_strip(oil, peak*exp(-step), speed, 5.0e-6_wp, 4.0e-6_wp, 1.0e-4_wp, less)
+         call sheared_strip(oil, peak*exp(step), speed, 5.0e-6_wp, 4.0e-6_wp, 1.0e-4_wp, more)
+         call compare(strip%pressure_by_peak, less%pressure, more%pressure)
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> A derivative of a logarithm with its difference, whose error is about 1e-10.
+      subroutine compare(derivative, below, above)
+         !> Derivative [-], values on both sides [-]
+         real(wp), intent(in) :: derivative, below, above
+
+         call check(error, abs(derivative - log(above/below)/(2.0_wp*step)) < 1.0e-8_wp, "a derivative of the strip is wrong")
+      end subroutine compare
+
+   end subroutine test_strip_slopes
 
    subroutine test_eyring_newtonian(error)
       type(error_type), allocatable, intent(out) :: error

@@ -45,6 +45,8 @@ contains
             & test_heat_and_profile), &
          new_unittest("slopes with a limit of the stress at each point, for every viscosity and shear law, with and without heat", &
             & test_local_limit), &
+         new_unittest("slopes with the strip from rigid to elastic contacts, every viscosity and shear law, with and without "// &
+            & "heat", test_wide_shear), &
          new_unittest("slopes with a law of the boundary coefficient, with and without heat", test_with_boundary_law), &
          new_unittest("slopes with a tribofilm whose thickness changes over the cam", test_with_tribofilm), &
          new_unittest("slopes with an oil film on the roller's pin, for both of its laws", test_with_pin_film), &
@@ -230,6 +232,32 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_local_limit
+
+   subroutine test_wide_shear(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law
+
+      do law = 1, 12
+         case = skewed_case(rotation_names(1 + mod(law, 2)))
+         case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
+         case%film%law = film_law_names(1 + mod(law, 3))
+         case%traction%sheared_zone = "rigid_to_elastic"
+         case%traction%shear_law = merge("newtonian", "eyring   ", mod(law, 4) < 2)
+         case%traction%eyring_stress = 5.0e6_wp
+         case%asperity%film_shear_strength = 2.0e6_wp
+         if (law > 9) case%traction%limit = "local"
+         if (mod(law, 2) == 0) call add_heat(case)
+         if (mod(law, 5) == 0) call add_profile(case)
+         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "strip from rigid to elastic contacts, "//trim(case%lubricant%pressure_law)//", "// &
+            & case%traction%shear_law)
+         if (allocated(error)) return
+      end do
+   end subroutine test_wide_shear
 
    subroutine test_with_boundary_law(error)
       type(error_type), allocatable, intent(out) :: error
