@@ -1,15 +1,17 @@
 !> Tables of cases: one column for each key that varies, one row for each case, from a text or a file that a reader takes.
 !>
 !> In: a path. Out: columns of texts under the names of their keys. In text, the first line that is no comment
-!> holds the names, as `group.key`; columns are parted by commas, semicolons, blanks or tabulators, names and values may stand in
-!> quotes, a word that begins with `#` or `!` begins a comment.
+!> holds the names, as `group.key`. Columns are parted by semicolons where that line has one, by commas where it has one of them, by
+!> blanks or tabulators else. Names and values may stand in quotes, a word that begins with `#` or `!` begins a comment.
 module camroller_sweep_table
    use camroller_error, only : error_t
-   use camroller_mistakes, only : mistakes_t, add_mistake
+   use camroller_mistakes, only : mistakes_t, add_mistake, shown
    use camroller_text_lines, only : text_lines_t, split_lines, line_at
    use camroller_number_text, only : counted, integer_text, is_number
-   use camroller_deck_values, only : split_words, longest_text
+   use camroller_deck_sweep, only : measured_prefix, nothing_measured
+   use camroller_deck_values, only : next_word, longest_text
    use camroller_table_file, only : on_commas
+   use camroller_quotes, only : without_quotes
    use camroller_text_encoding, only : check_encoding
    use camroller_text_file, only : read_text_file
    use camroller_text_list, only : new_text_list, put_text_at
@@ -21,6 +23,15 @@ module camroller_sweep_table
 
    !> Most columns of a table
    integer, parameter :: most_columns = 64
+
+   !> Words of a line
+   type :: row_t
+      !> How many there are, and the words
+      integer :: count = 0
+      character(len=longest_text) :: words(most_columns + 1) = ""
+      !> Commas or semicolons before each word, and behind the last
+      integer :: marks(most_columns + 2) = 0
+   end type row_t
 
 contains
 
@@ -75,52 +86,43 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       type(text_lines_t) :: lines
-      character(len=longest_text) :: words(most_columns + 1)
-      character(len=:), allocatable :: advice
+      type(row_t) :: heading, row
+      character(len=:), allocatable :: reason
+      character(len=1) :: mark
       integer, allocatable :: widths(:)
-      integer :: i, j, n, rows, pass, before
+      integer :: i, j, rows, pass
 
       call split_lines(text, lines)
       call check_encoding(lines, mistakes, path)
-      allocate (columns(0))
       do pass = 1, 2
          rows = -1
          do i = 1, lines%count
-            call split_words(text(lines%first(i):lines%last(i)), words, n)
-            n = before_comment(words(:n))
-            if (n == 0) cycle
+            if (rows < 0) call find_mark(text(lines%first(i):lines%last(i)), mark)
+            call split_row(text(lines%first(i):lines%last(i)), mark, row)
+            if (row%count == 0) cycle
             rows = rows + 1
-            if (n > most_columns) then
+            if (rows == 0) heading = row
+            call judge_row(heading, row, rows == 0, mark, reason)
+            if (reason /= "") then
+               if (pass == 1) call add_mistake(mistakes, reason, i, 0, 0, path, line_at(lines, i))
+               if (rows == 0) exit
                rows = rows - 1
-               if (pass == 1) call add_mistake(mistakes, "a table of cases has at most "//integer_text(most_columns)// &
-                  & " columns", i, 0, 0, path, line_at(lines, i))
-               if (rows < 0) return
             else if (pass == 1 .and. rows == 0) then
-               before = mistakes%count
-               call check_heading(words(:n), path, i, line_at(lines, i), mistakes)
-               if (mistakes%count > before) return
-               deallocate (columns)
-               allocate (columns(n), widths(n))
+               allocate (columns(row%count), widths(row%count))
                widths = 1
-               do j = 1, n
-                  columns(j)%key = trim(words(j))
-                  call cut_quotes(columns(j)%key)
+               do j = 1, row%count
+                  columns(j)%key = without_quotes(trim(row%words(j)))
                end do
-            else if (n /= size(columns)) then
-               rows = rows - 1
-               advice = ""
-               if (n > size(columns) .and. index(line_at(lines, i), ",") > 0) advice = on_commas
-               if (pass == 1) call add_mistake(mistakes, "this row has "//counted(n, "column")//", the heading has "// &
-                  & integer_text(size(columns))//advice, i, 0, 0, path, line_at(lines, i))
             else if (pass == 1) then
-               widths = max(widths, len_trim(words(:n)))
+               widths = max(widths, len_trim(row%words(:row%count)))
             else if (rows > 0) then
-               do j = 1, n
-                  call put_text_at(columns(j)%cells, rows, words(j))
+               do j = 1, row%count
+                  call put_text_at(columns(j)%cells, rows, row%words(j))
                   columns(j)%lines(rows) = i
                end do
             end if
          end do
+         if (.not. allocated(columns)) allocate (columns(0))
          if (pass == 2) exit
          do j = 1, size(columns)
             call new_text_list(columns(j)%cells, max(rows, 0), widths(j))
@@ -129,46 +131,142 @@ contains
       end do
    end subroutine read_rows
 
-   !> Refuse a first line that holds no names.
-   subroutine check_heading(words, path, line, text, mistakes)
-      !> Words of the line
-      character(len=*), intent(in) :: words(:)
-      !> Path of the file, for messages
-      character(len=*), intent(in) :: path
-      !> Number of the line, and the line
-      integer, intent(in) :: line
-      character(len=*), intent(in) :: text
-      !> Mistakes so far
-      type(mistakes_t), intent(inout) :: mistakes
+   !> What parts the columns of a table, beside blanks and tabulators around it.
+   pure subroutine find_mark(line, mark)
+      !> The heading, or a line before it
+      character(len=*), intent(in) :: line
+      !> A semicolon, a comma, or a blank where there is neither
+      character(len=1), intent(out) :: mark
+
+      character(len=1), parameter :: marks(*) = [";", ","]
+      type(row_t) :: row
+      integer :: i
+
+      do i = 1, size(marks)
+         mark = marks(i)
+         call split_row(line, mark, row)
+         if (any(row%marks > 0)) return
+      end do
+      mark = " "
+   end subroutine find_mark
+
+   !> Cut a line into its words, without its comment.
+   pure subroutine split_row(line, mark, row)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> What parts its words beside blanks and tabulators
+      character(len=1), intent(in) :: mark
+      !> Its words; where there are too many, one more than are read
+      type(row_t), intent(out) :: row
+
+      integer :: position, before, first, last, i
+
+      position = 1
+      do
+         before = position
+         call next_word(line, position, first, last, mark)
+         last = max(first - 1, merge(len(line), 0, first == 0))
+         if (mark /= " ") row%marks(row%count + 1) = count([(line(i:i) == mark, i=before, last)])
+         if (first == 0 .or. row%count == size(row%words)) return
+         if (scan(line(first:first), "#!") == 1) return
+         row%count = row%count + 1
+         row%words(row%count) = line(first:position - 1)
+      end do
+   end subroutine split_row
+
+   !> What is wrong with a line of a table.
+   pure subroutine judge_row(heading, row, is_heading, mark, reason)
+      !> The heading, and the line
+      type(row_t), intent(in) :: heading, row
+      !> Are they the same?
+      logical, intent(in) :: is_heading
+      !> What parts columns
+      character(len=1), intent(in) :: mark
+      !> What is wrong; empty where nothing is
+      character(len=:), allocatable, intent(out) :: reason
 
       integer :: i
 
-      if (any([(is_number(trim(words(i))), i=1, size(words))])) then
-         call add_mistake(mistakes, "the first line of a table of cases holds the names of its columns, as "// &
-            & "operating_point.speed_rpm, and no numbers", line, 0, 0, path, text)
-      else if (any([(index(words(i), "[") == 1, i=1, size(words))])) then
-         call add_mistake(mistakes, "a name with a blank, as 'measured.torque [N m]', stands in quotes", line, 0, 0, path, text)
+      reason = ""
+      if (row%count > most_columns) then
+         reason = "a table of cases has at most "//integer_text(most_columns)//" columns"
+      else if (is_heading) then
+         call judge_names(row%words(:row%count), reason)
+      else
+         do i = 1, row%count
+            if (.not. has_decimal_comma(trim(row%words(i)))) cycle
+            reason = "'"//shown(trim(row%words(i)))//"' has a comma, which parts no columns in the heading; "// &
+               & "decimals have a point"
+         end do
       end if
-   end subroutine check_heading
+      if (reason == "" .and. mark /= " ") call judge_marks(heading, row, is_heading, mark, reason)
+      if (reason /= "" .or. row%count == heading%count) return
+      reason = "this row has "//counted(row%count, "column")//", the heading has "//integer_text(heading%count)
+      if (row%count > heading%count .and. mark == ",") reason = reason//on_commas
+   end subroutine judge_row
 
-   !> Number of words before the comment of a line.
-   pure function before_comment(words) result(number)
+   !> Is there one mark between two words? Behind the last word there may be as many as in the heading.
+   pure subroutine judge_marks(heading, row, is_heading, mark, reason)
+      !> The heading, and the line
+      type(row_t), intent(in) :: heading, row
+      !> Are they the same?
+      logical, intent(in) :: is_heading
+      !> What parts columns
+      character(len=1), intent(in) :: mark
+      !> What is wrong; empty where nothing is
+      character(len=:), allocatable, intent(out) :: reason
+
+      integer :: i, most
+
+      reason = ""
+      do i = 1, row%count + 1
+         most = merge(0, 1, i == 1)
+         if (i > row%count) most = heading%marks(heading%count + 1)
+         if (row%marks(i) > most) then
+            reason = "column "//integer_text(i)//" is empty"
+            if (is_heading .or. i > heading%count) return
+            reason = reason//": "//without_quotes(trim(heading%words(i)))//" needs a value"
+            if (index(without_quotes(trim(heading%words(i))), measured_prefix) == 1) then
+               reason = reason//"; '"//nothing_measured//"' stands where nothing was measured"
+            end if
+            return
+         else if (i > 1 .and. i <= row%count .and. row%marks(i) == 0) then
+            reason = "'"//mark//"' parts columns, as in the heading; there is none before '"//shown(trim(row%words(i)))// &
+               & "', and a text with a blank stands in quotes"
+            return
+         end if
+      end do
+   end subroutine judge_marks
+
+   !> What is wrong with a first line that holds no names.
+   pure subroutine judge_names(words, reason)
       !> Words of the line
       character(len=*), intent(in) :: words(:)
-      !> The number
-      integer :: number
+      !> What is wrong; empty where nothing is
+      character(len=:), allocatable, intent(out) :: reason
 
-      do number = 0, size(words) - 1
-         if (scan(words(number + 1), "#!") == 1) return
-      end do
-   end function before_comment
+      integer :: i
 
-   !> Take quotes around a word away.
-   pure subroutine cut_quotes(word)
+      reason = ""
+      if (any([(is_number(trim(words(i))), i=1, size(words))])) then
+         reason = "the first line of a table of cases holds the names of its columns, as operating_point.speed_rpm, and no numbers"
+      else if (any([(index(words(i), "[") == 1, i=1, size(words))])) then
+         reason = "a name with a blank, as 'measured.torque [N m]', stands in quotes"
+      end if
+   end subroutine judge_names
+
+   !> Is a word a number but for a comma in the place of its point?
+   pure function has_decimal_comma(word) result(verdict)
       !> The word
-      character(len=:), allocatable, intent(inout) :: word
+      character(len=*), intent(in) :: word
+      !> Is it?
+      logical :: verdict
 
-      if (scan(word, "'""") == 1 .and. len(word) > 1) word = word(2:len(word) - 1)
-   end subroutine cut_quotes
+      integer :: i
+
+      i = index(word, ",")
+      verdict = i > 0
+      if (verdict) verdict = is_number(word(:i - 1)//"."//word(i + 1:))
+   end function has_decimal_comma
 
 end module camroller_sweep_table

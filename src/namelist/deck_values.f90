@@ -20,7 +20,7 @@ module camroller_deck_values
    implicit none
    private
 
-   public :: value_t, read_value, next_word, has_empty_place, split_words, longest_text
+   public :: value_t, read_value, next_word, has_empty_place, longest_text
 
    !> Longest list and longest text
    integer, parameter :: longest_list = 512, longest_text = 512
@@ -323,20 +323,20 @@ contains
    end function is_within
 
    !> Next word of a list; quoted text stays in one piece, with its quotes, and with those inside, which are doubled.
-   pure subroutine next_word(text, position, first, last, with_semicolons)
+   pure subroutine next_word(text, position, first, last, mark)
       !> The list
       character(len=*), intent(in) :: text
       !> Where to begin; behind the word on return
       integer, intent(inout) :: position
       !> First and last character of the word; the first is 0 where there is none left
       integer, intent(out) :: first, last
-      !> Do semicolons part words, too? Not where this is left out
-      logical, intent(in), optional :: with_semicolons
+      !> What parts words beside blanks and tabulators; a comma where this is left out
+      character(len=1), intent(in), optional :: mark
 
-      character(len=4) :: separators
+      character(len=3) :: separators
 
       separators = " ,"//char(9)
-      if (present(with_semicolons)) separators(4:) = merge(";", " ", with_semicolons)
+      if (present(mark)) separators(2:2) = mark
       first = 0
       last = 0
       do while (position <= len(text))
@@ -398,27 +398,5 @@ contains
 
       number = count([(text(i:i) == ",", i=1, len(text))])
    end function commas
-
-   !> Cut a line into its words, which semicolons part as well.
-   pure subroutine split_words(text, words, count)
-      !> The list
-      character(len=*), intent(in) :: text
-      !> Its words
-      character(len=*), intent(out) :: words(:)
-      !> How many there are, at most as many as fit
-      integer, intent(out) :: count
-
-      integer :: position, first, last
-
-      count = 0
-      words = ""
-      position = 1
-      do while (count < size(words))
-         call next_word(text, position, first, last, with_semicolons=.true.)
-         if (first == 0) exit
-         count = count + 1
-         words(count) = text(first:last)
-      end do
-   end subroutine split_words
 
 end module camroller_deck_values

@@ -170,6 +170,8 @@ def test_a_table_of_cases_without_names_says_what_belongs_there(camroller, tmp_p
 
 @pytest.mark.parametrize(("text", "words"), [
     ("operating_point.speed_rpm;operating_point.oil_temperature_degC\n600,5;60\n900;60\n",
+     ":2: '600,5' has a comma, which parts no columns in the heading; decimals have a point"),
+    ("operating_point.speed_rpm,operating_point.oil_temperature_degC\n600,5,60\n900,60\n",
      ":2: this row has 3 columns, the heading has 2; a comma parts columns, decimals have a point"),
     ("operating_point.speed_rpm, measured.torque [N m]\n600, 0.1\n900, 0.2\n", ":1: a name with a blank"),
 ])
@@ -179,6 +181,45 @@ def test_a_table_of_cases_has_one_mistake_for_one_reason(camroller, tmp_path, te
     (tmp_path / "deck.nml").write_text(deck, encoding="utf-8")
     errors = check(camroller, tmp_path / "deck.nml").stderr
     assert words in errors and errors.count("cases.csv:") == 1
+
+
+NAMES = ("operating_point.speed_rpm", "operating_point.oil_temperature_degC", '"measured.torque [N mm]"')
+
+
+@pytest.mark.parametrize(("mark", "row", "words"), [
+    (";", "600,5;60;", "'600,5' has a comma, which parts no columns in the heading; decimals have a point"),
+    (" ", "600,5 60", "'600,5' has a comma, which parts no columns in the heading; decimals have a point"),
+    (";", "600;60;", "column 3 is empty: measured.torque [N mm] needs a value; '-' stands where nothing was measured"),
+    (",", "600, ,60", "column 2 is empty: operating_point.oil_temperature_degC needs a value"),
+    (",", ",60,41", "column 1 is empty: operating_point.speed_rpm needs a value"),
+    (";", "600;60;41;", "column 4 is empty"),
+    (";", "600;60;41; # a comment", "column 4 is empty"),
+    (",", "600 60, 41", "',' parts columns, as in the heading; there is none before '60', and a text with a blank stands in quotes"),
+    ("\t", "600\t\t60", "this row has 2 columns, the heading has 3"),
+    (";", "600,60,41", "this row has 1 column, the heading has 3"),
+])
+def test_an_empty_cell_of_a_table_of_cases_moves_no_other(camroller, tmp_path, mark, row, words):
+    """What parts the names parts the values; a decimal comma never becomes a column in silence."""
+    path = tmp_path / "cases.csv"
+    path.write_text(mark.join(NAMES) + f"\n700{mark}60{mark}-\n{row}\n", encoding="utf-8")
+    deck = re.sub(r"&sweep.*", "&sweep kind = 'table' table = 'cases.csv' /\n", THESIS, flags=re.S)
+    (tmp_path / "deck.nml").write_text(deck, encoding="utf-8")
+    result = check(camroller, tmp_path / "deck.nml")
+    shown_row = row.replace("\t", " ")
+    assert result.returncode == DECK
+    assert result.stderr == f"camroller: {path}:3: {words}\n    3 | {shown_row}\n"
+    # names and rows that all end so have no empty column, and lines of nothing else are none
+    if mark != "\t":
+        path.write_text(mark.join(NAMES) + f"{mark}\n700{mark}60{mark}-{mark}\n{mark}{mark}{mark}\n700{mark}80{mark}-\n", encoding="utf-8")
+        result = check(camroller, tmp_path / "deck.nml")
+        assert result.returncode == 0 and "is valid: 2 cases" in result.stdout, result.stderr
+
+
+def test_a_column_without_a_name_is_a_mistake(camroller, tmp_path):
+    (tmp_path / "cases.csv").write_text(",operating_point.speed_rpm\n0,600\n", encoding="utf-8")
+    deck = re.sub(r"&sweep.*", "&sweep kind = 'table' table = 'cases.csv' /\n", THESIS, flags=re.S)
+    (tmp_path / "deck.nml").write_text(deck, encoding="utf-8")
+    assert "cases.csv:1: column 1 is empty\n" in check(camroller, tmp_path / "deck.nml").stderr
 
 
 def test_a_comment_in_a_table_of_cases_begins_with_its_word(camroller, tmp_path):
