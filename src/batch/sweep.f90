@@ -26,8 +26,8 @@ module camroller_sweep
    use camroller_result_claim, only : remove_left_lock
    use camroller_run_facts, only : study_facts
    use camroller_settings, only : take
-   use camroller_sweep_file, only : conclude, make_result, open_result, scan_all, series_choice, study_t, sweep_made, &
-      & sweep_options_t, sweep_report_t, sweep_shard_done, sweep_was_complete, tell_damages
+   use camroller_sweep_file, only : conclude, make_result, open_result, refuse_other, scan_all, series_choice, study_t, &
+      & sweep_made, sweep_options_t, sweep_report_t, sweep_shard_done, sweep_was_complete, tell_damages
    use camroller_team, only : agreed_code, team_t
    implicit none
    private
@@ -263,11 +263,10 @@ contains
       end if
       call find_parts(study%path, part_beginning(study%path), paths)
       call look_at_earlier(earlier, study%path, study%facts)
-      if (options%is_resumed .and. earlier%state == other_there) then
-         call raise(error, kind_file, "'"//study%path//"' exists and is not a result of this sweep: "//earlier%reason// &
-            & new_line("a")//"--resume does not replace it; move it away, name another file by -o, or leave --resume out")
-         return
-      else if (options%is_resumed .and. earlier%state == complete_there .and. size(paths) == 0) then
+      if (options%is_resumed) call refuse_other(study%path, earlier, "--resume does not replace it; move it away, name another "// &
+         & "file by -o, or leave --resume out", error)
+      if (allocated(error)) return
+      if (options%is_resumed .and. earlier%state == complete_there .and. size(paths) == 0) then
          call remove_left_lock(study%path)
          report%ending = sweep_was_complete
          call move_alloc(earlier%failure, failure)

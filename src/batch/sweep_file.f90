@@ -2,8 +2,8 @@
 !>
 !> In: a study, its cases from part files or from the loop that computes them. Out: the file, and what happened to the cases; part
 !> files are removed where all cases are in it. One process at a time makes the file of part files, so that none sees the parts
-!> while another removes them: parts go only when the complete file has its name, and a partial file never takes the place of a
-!> complete one of the same study.
+!> while another removes them: parts go only when the complete file has its name. A partial file takes the place of a partial one of
+!> the same study alone.
 module camroller_sweep_file
    use camroller_error, only : error_t, raise, kind_file, kind_unfinished
    use camroller_assemble, only : assemble
@@ -25,7 +25,7 @@ module camroller_sweep_file
    private
 
    public :: study_t, sweep_options_t, sweep_report_t, sweep_made, sweep_was_complete, sweep_shard_done
-   public :: make_result, open_result, conclude, scan_all, series_choice, tell_damages
+   public :: make_result, open_result, conclude, refuse_other, scan_all, series_choice, tell_damages
 
    !> How a sweep may end: without its file; the file was made; it was there with all cases; all cases of a shard are computed
    integer, parameter :: sweep_unfinished = 0, sweep_made = 1, sweep_was_complete = 2, sweep_shard_done = 3
@@ -221,22 +221,61 @@ contains
          call raise(error, kind_unfinished, integer_text(run_total(missing))//" of "//counted(study%facts%cases, "case")// &
             & agreeing(run_total(missing), " is missing, ", " are missing, the first is ")// &
             & case_in_words(deck%sweep, missing%first(1))//"; "//advice)
-      else if (run_total(missing) > 0 .and. earlier%state == complete_there) then
-         call raise(error, kind_file, "'"//study%path//"' exists with all cases, and a partial file would replace it; move "// &
-            & "it away first")
       else
+         call check_earlier(study, earlier, options%is_resumed, run_total(missing) > 0, error)
+         if (allocated(error)) return
          if (is_merge .and. earlier%state == other_there) call monitor%say("remark: '"//study%path// &
             & "' is replaced; it was not a result of this sweep: "//earlier%reason, .false.)
-         call write_result(study, deck, index, paths, report, error)
+         call write_result(study, deck, options%is_resumed, index, paths, report, error)
       end if
    end subroutine join_parts
 
-   !> Write the result file; the parts are removed where it is complete.
-   subroutine write_result(study, deck, index, paths, report, error)
+   !> May a result take the place of what has its name?
+   subroutine check_earlier(study, earlier, is_resumed, is_partial, error)
+      !> What is computed
+      type(study_t), intent(in) :: study
+      !> What is there
+      type(earlier_t), intent(in) :: earlier
+      !> Does the user want what is there to be continued? Is the result without some cases?
+      logical, intent(in) :: is_resumed, is_partial
+      !> File error where it may not
+      type(error_t), allocatable, intent(out) :: error
+
+      if (is_partial .and. earlier%state == complete_there) then
+         call raise(error, kind_file, "'"//study%path//"' exists with all cases, and a partial file would replace it; move "// &
+            & "it away first")
+      else if (is_partial) then
+         call refuse_other(study%path, earlier, "a partial file does not replace it; move it away first", error)
+      else if (is_resumed) then
+         call refuse_other(study%path, earlier, "it came while the cases were computed, and --resume does not replace it; move "// &
+            & "it away and start again with --resume, which finds the cases", error)
+      end if
+   end subroutine check_earlier
+
+   !> An error where a file that is no result of a study has the name of one.
+   subroutine refuse_other(path, earlier, advice, error)
+      !> The name
+      character(len=*), intent(in) :: path
+      !> What is there
+      type(earlier_t), intent(in) :: earlier
+      !> What may be done
+      character(len=*), intent(in) :: advice
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (earlier%state /= other_there) return
+      call raise(error, kind_file, "'"//path//"' exists and is not a result of this sweep: "//earlier%reason//new_line("a")//advice)
+   end subroutine refuse_other
+
+   !> Write the result file; the parts are removed where it is complete. What came meanwhile under its name is looked at again
+   !> before it gets that name, since a result that is computed without parts waits for no other.
+   subroutine write_result(study, deck, is_resumed, index, paths, report, error)
       !> What is computed
       type(study_t), intent(in) :: study
       !> Its deck
       type(deck_t), intent(in) :: deck
+      !> Does the user want what is there to be continued?
+      logical, intent(in) :: is_resumed
       !> What the part files hold
       type(index_t), intent(inout) :: index
       !> The part files
@@ -247,12 +286,17 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(case_writer_t) :: writer
+      type(earlier_t) :: earlier
       integer :: i
 
       call remove_unfinished(study%path)
       call open_result(writer, study, deck, .false., error)
       if (.not. allocated(error)) call assemble(index, paths, writer, error)
       if (.not. allocated(error)) call write_missing(writer, study%facts%cases, error)
+      if (.not. allocated(error)) then
+         call look_at_earlier(earlier, study%path, study%facts)
+         call check_earlier(study, earlier, is_resumed, writer%tally%missing > 0, error)
+      end if
       if (.not. allocated(error)) call close_cases(writer, error)
       if (allocated(error)) then
          call abandon_cases(writer)

@@ -10,7 +10,7 @@ import h5py
 import pytest
 
 from conftest import ROOT, done, run
-from sweeps import same, write_deck
+from sweeps import GRID, same, write_deck
 
 DECK, DOMAIN, FILE, UNFINISHED = 3, 4, 6, 8
 CASES = 24
@@ -104,6 +104,34 @@ def test_a_partial_file_does_not_replace_a_complete_one(camroller, deck, referen
     assert result.returncode == FILE
     assert "'deck.h5' exists with all cases, and a partial file would replace it" in result.stderr
     assert same(reference, tmp_path / "deck.h5")
+
+
+def test_a_partial_file_replaces_no_result_of_another_study(camroller, deck, reference, tmp_path):
+    shutil.copy(reference, tmp_path / "deck.h5")
+    other = ["--set", "roller.mass_kg=0.012"]
+    done(camroller, "sweep", deck, *other, "--shard", "2/3", "--quiet", folder=tmp_path)
+    result = run(camroller, "merge", deck, *other, "--partial", folder=tmp_path)
+    assert result.returncode == FILE
+    assert "'deck.h5' exists and is not a result of this sweep" in result.stderr
+    assert "\na partial file does not replace it; move it away first\n" in result.stderr
+    assert same(reference, tmp_path / "deck.h5")
+
+
+def test_resume_does_not_replace_a_result_that_came_meanwhile(camroller, deck, reference, tmp_path):
+    long = write_deck(tmp_path / "long.nml", GRID.replace("count_1 = 6", "count_1 = 60"))
+    sweep = subprocess.Popen([camroller, "sweep", long, "-o", "x.h5", "--resume", "--threads", "1", "--quiet"], cwd=tmp_path,
+                             stderr=subprocess.PIPE, text=True)
+    while not list(tmp_path.glob("x.h5.part-*")):
+        time.sleep(0.001)
+    shutil.copy(reference, tmp_path / "x.h5")
+    words = sweep.communicate(timeout=300)[1]
+    assert sweep.returncode == FILE
+    assert "'x.h5' exists and is not a result of this sweep: " in words and "\nit came while the cases were computed, and " in words
+    assert same(reference, tmp_path / "x.h5")
+    assert sorted(path.name for path in tmp_path.glob("x.h5*")) == ["x.h5", "x.h5.part-rank-0"]
+    (tmp_path / "x.h5").rename(tmp_path / "other.h5")
+    again = done(camroller, "sweep", long, "-o", "x.h5", "--resume", folder=tmp_path)
+    assert again.stdout.startswith("x.h5: 240 cases in ")
 
 
 def message(result):
