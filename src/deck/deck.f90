@@ -100,7 +100,7 @@ contains
       !> Reader of tables of cases that are no text
       class(column_reader_t), intent(in), optional :: reader
 
-      type(mistakes_t) :: mistakes
+      type(mistakes_t) :: mistakes, consequences
       integer :: i
 
       if (present(tables)) deck%tables = tables
@@ -109,8 +109,15 @@ contains
       deck%folder = folder
       call expand_includes(text, folder, deck%text, deck%origins, mistakes)
       call new_schema(deck%schema)
-      call read_shape(deck%text, deck%shape, mistakes)
       call new_settings(deck%schema, deck%settings)
+      if (mistakes%count > 0) then
+         ! What is missing then, or there twice, follows from it
+         call read_shape(deck%text, deck%shape, consequences)
+         call place_mistakes(deck%origins, deck%shape%lines, mistakes)
+         call raise_mistakes(mistakes, name, deck%shape%lines, error)
+         return
+      end if
+      call read_shape(deck%text, deck%shape, mistakes)
       call check_encoding(deck%shape%lines, mistakes)
       call match_deck(deck%schema, deck%shape, deck%settings, mistakes)
       do i = 1, size(overrides)

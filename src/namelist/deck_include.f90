@@ -5,6 +5,7 @@
 module camroller_deck_include
    use camroller_deck_text, only : to_lower
    use camroller_error, only : error_t
+   use camroller_file_facts, only : facts_of_path, is_same_file
    use camroller_mistakes, only : line_t, mistakes_t, add_mistake
    use camroller_number_text, only : integer_text
    use camroller_text_file, only : folder_of, join_path, read_text_file
@@ -51,8 +52,9 @@ contains
       !> Mistakes so far: files that cannot be read
       type(mistakes_t), intent(inout) :: mistakes
 
-      integer :: lines
+      integer :: lines, before
 
+      before = mistakes%count
       allocate (origins%files(0), origins%spans(0))
       if (index(to_lower(text), word) == 0) then
          whole = text
@@ -60,19 +62,18 @@ contains
       end if
       whole = ""
       lines = 0
-      call add_file(text, folder, 0, 0, whole, lines, origins, mistakes)
-      if (size(origins%files) == 0) deallocate (origins%spans)
-      if (.not. allocated(origins%spans)) allocate (origins%spans(0))
+      call add_file(text, folder, [integer ::], whole, lines, origins, mistakes)
+      if (size(origins%files) == 0 .and. mistakes%count == before) origins%spans = origins%spans(:0)
    end subroutine expand_includes
 
    !> Add the lines of one file, and of those that it includes.
-   recursive subroutine add_file(text, folder, file, depth, whole, lines, origins, mistakes)
+   recursive subroutine add_file(text, folder, chain, whole, lines, origins, mistakes)
       !> Text of the file
       character(len=*), intent(in) :: text
       !> Its folder
       character(len=*), intent(in) :: folder
-      !> Its number, 0 for the deck, and how many files include it
-      integer, intent(in) :: file, depth
+      !> Numbers of the files by which the deck includes it, its own last; none for the deck
+      integer, intent(in) :: chain(:)
       !> Text so far
       character(len=:), allocatable, intent(inout) :: whole
       !> Lines of it
@@ -86,8 +87,10 @@ contains
       type(error_t), allocatable :: error
       character(len=:), allocatable :: path, included, reason
       logical :: is_open
-      integer :: i, first, column, width
+      integer :: i, first, column, width, file
 
+      file = 0
+      if (size(chain) > 0) file = chain(size(chain))
       call split_lines(text, parts)
       call add_span(origins, lines + 1, file, 1)
       is_open = .false.
@@ -99,9 +102,12 @@ contains
          reason = ""
          if (len(path) == 0) then
             reason = "expected include = 'file'"
-         else if (depth == deepest .or. size(origins%files) == most_files) then
-            reason = "more than "//integer_text(merge(deepest, most_files, depth == deepest))//" included files"
          else
+            call say_circle(origins, chain, join_path(folder, path), reason)
+         end if
+         if (reason == "" .and. (size(chain) == deepest .or. size(origins%files) == most_files)) then
+            reason = "more than "//integer_text(merge(deepest, most_files, size(chain) == deepest))//" included files"
+         else if (reason == "") then
             call read_text_file(join_path(folder, path), included, error)
             if (allocated(error)) reason = error%message
          end if
@@ -110,8 +116,8 @@ contains
             cycle
          end if
          call add_name(origins, join_path(folder, path))
-         call add_file(included, folder_of(join_path(folder, path)), size(origins%files), depth + 1, whole, lines, origins, &
-            & mistakes)
+         call add_file(included, folder_of(join_path(folder, path)), [chain, size(origins%files)], whole, lines, &
+            & origins, mistakes)
          call add_span(origins, lines + 1, file, i + 1)
       end do
       call add_lines(parts%count)
@@ -134,6 +140,36 @@ contains
       end subroutine add_lines
 
    end subroutine add_file
+
+   !> Say that a file would include itself, directly or by others.
+   subroutine say_circle(origins, chain, path, words)
+      !> Included files
+      type(origins_t), intent(in) :: origins
+      !> Numbers of the files that are being included, each by the one before it
+      integer, intent(in) :: chain(:)
+      !> A file that the last of them includes
+      character(len=*), intent(in) :: path
+      !> The words; empty where it is none of them
+      character(len=:), allocatable, intent(out) :: words
+
+      integer :: i, first
+
+      first = 0
+      words = ""
+      do i = 1, size(chain)
+         if (first > 0) then
+            words = words//" includes '"//origins%files(chain(i))%text//"', which"
+         else if (is_same_file(facts_of_path(path), facts_of_path(origins%files(chain(i))%text))) then
+            first = i
+            words = "'"//origins%files(chain(i))%text//"'"
+         end if
+      end do
+      if (first > 0 .and. first == size(chain)) then
+         words = words//" includes itself"
+      else if (first > 0) then
+         words = words//" includes '"//path//"'"
+      end if
+   end subroutine say_circle
 
    !> Find a line that includes a file, and whether a group is open behind a line.
    pure subroutine find_include(line, is_open, path, column, width)

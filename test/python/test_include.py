@@ -54,10 +54,39 @@ def test_missing_file_and_circle_are_mistakes(camroller, tmp_path):
     deck = split_deck(tmp_path)
     (tmp_path / "parts/output.nml").unlink()
     result = run(camroller, "check", deck)
-    assert result.returncode == 3 and f"{tmp_path}/parts/oil.nml:" in result.stderr and "output.nml" in result.stderr
-    (tmp_path / "parts/output.nml").write_text("include = 'oil.nml'\n", encoding="utf-8")
+    oil, output = tmp_path / "parts/oil.nml", tmp_path / "parts/output.nml"
+    lines = oil.read_text(encoding="utf-8").splitlines()
+    assert result.returncode == 3
+    assert result.stderr == (f"camroller: {oil}:{len(lines)}:1: there is no file '{output}'\n{len(lines):5} | {lines[-1]}\n"
+                             f"      | {'^' * len(lines[-1])}\n")
+    output.write_text("include = 'oil.nml'\n", encoding="utf-8")
     result = run(camroller, "check", deck)
-    assert result.returncode == 3 and "more than 10 included files" in result.stderr
+    assert result.returncode == 3
+    assert result.stderr.startswith(f"camroller: {output}:1:1: '{oil}' includes '{output}', which includes '{oil}'\n")
+    assert result.stderr.count("\n") == 3
+
+
+def test_a_missing_file_is_told_with_the_line_of_the_deck(camroller, tmp_path):
+    text = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
+    (tmp_path / "deck.nml").write_text("include = 'none.nml'\n" + text[text.index("&roller"):], encoding="utf-8")
+    result = run(camroller, "check", "deck.nml", folder=tmp_path)
+    assert result.returncode == 3
+    assert result.stderr == "camroller: deck.nml:1:1: there is no file 'none.nml'\n    1 | include = 'none.nml'\n      | " + "^" * 20 + "\n"
+
+
+def test_a_deck_that_includes_itself_says_so(camroller, tmp_path):
+    text = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
+    (tmp_path / "deck.nml").write_text("include = './deck.nml'\n" + text, encoding="utf-8")
+    result = run(camroller, "check", "deck.nml", folder=tmp_path)
+    assert result.returncode == 3
+    assert result.stderr.startswith("camroller: ./deck.nml:1:1: './deck.nml' includes itself\n") and result.stderr.count("\n") == 3
+
+
+def test_more_files_than_may_be_included_are_a_mistake(camroller, tmp_path):
+    for i in range(12):
+        (tmp_path / f"{i}.nml").write_text(f"include = '{i + 1}.nml'\n", encoding="utf-8")
+    result = run(camroller, "check", "0.nml", folder=tmp_path)
+    assert result.returncode == 3 and "10.nml:1:1: more than 10 included files\n" in result.stderr
 
 
 def test_result_does_not_replace_an_included_file(camroller, tmp_path):
