@@ -9,6 +9,7 @@ module camroller_rerun_command
    use camroller_case_runs, only : runs_t
    use camroller_cli, only : config_t
    use camroller_comparison_sink, only : comparison_sink_t
+   use camroller_differences, only : another_text
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, override_t, add_override, parse_deck
    use camroller_deck_sweep, only : sweep_size
@@ -312,7 +313,9 @@ contains
       do i = 1, size(order)
          associate (difference => sink%differences(order(i)))
             text = text//new_line("a")//"  "//difference%name//": in "//counted(difference%cases, "case")//", "
-            if (difference%largest < huge(1.0_wp)) then
+            if (difference%largest <= another_text) then
+               text = text//"another text, first in case "
+            else if (difference%largest < huge(1.0_wp)) then
                text = text//"at most by "//number_text(difference%largest, 2)//" of its value, in case "
             else
                text = text//"a number in only one of the files, in case "

@@ -1,42 +1,42 @@
 !> Cases that are compared with those of a result file, bit by bit.
 !>
-!> In: records, a result file. Out: which quantities differ, in how many cases, by how much.
+!> In: records, a result file. Out: which quantities differ, in how many cases, by how much. Compared are what became of each case
+!> and in which words, all scalars with their units, and series, histories and profiles of the cases that have them. A case without
+!> a result must have neither scalars nor series in the file.
 module camroller_comparison_sink
-   use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp, not_a_number
-   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_differences, only : compare, difference_t
+   use camroller_error, only : error_t, raise, kind_deck, kind_file, kind_usage
    use camroller_case_record, only : case_outcome_t, take_case, take_header
    use camroller_case_sink, only : sink_t
    use camroller_ehl_file, only : sample_record
    use camroller_ehl_record, only : ehl_record_t, list_ehl_quantities
    use camroller_hdf5_object, only : hdf5_object_t
-   use camroller_hdf5_read, only : has_member, read_numbers
+   use camroller_hdf5_read, only : has_member, is_text_dataset, list_members, member_length, read_extents, read_numbers, &
+      & read_text, read_text_attribute
    use camroller_history_file, only : history_group
    use camroller_layout, only : layout_t
-   use camroller_output_cases, only : group_of_source
+   use camroller_output_cases, only : choice_source, group_of_source
    use camroller_record, only : record_t
    use camroller_result, only : quantity_t
    implicit none
    private
 
-   public :: comparison_sink_t, difference_t, compare_record, compare_missing
+   public :: comparison_sink_t, compare_record, compare_missing
 
-   !> How a quantity differs
-   type :: difference_t
-      !> Its name in the file, e.g. `summary/mean_torque_drive`
-      character(len=:), allocatable :: name
-      !> Cases in which it does
-      integer :: cases = 0
-      !> Largest difference relative to the larger of both values [-]; huge where one of them is no number
-      real(wp) :: largest = 0.0_wp
-      !> Case of the largest difference, from 0; the first of several
-      integer :: case_number = 0
-   end type difference_t
+   !> A dataset of the file: its name from the root, and its unit
+   type :: stored_t
+      character(len=2*member_length) :: name = ""
+      character(len=:), allocatable :: unit
+   end type stored_t
 
    !> The sink
    type, extends(sink_t) :: comparison_sink_t
       !> The result file
       type(hdf5_object_t) :: file
+      !> Its scalars and its series, once they are listed, and the number of its cam angles
+      type(stored_t), allocatable :: scalars(:), series(:)
+      integer :: angles = 0
       !> Quantities that differ, by name
       type(difference_t), allocatable :: differences(:)
       !> Cases compared, cases that differ
@@ -63,11 +63,25 @@ contains
       integer :: i
 
       do i = 1, size(layout%summary)
-         if (has_member(self%file, "/"//place_of(layout%summary(i)))) cycle
-         call raise(error, kind_usage, "'"//self%file%file//"' has no '/"//place_of(layout%summary(i))// &
-            & "': it is from another version, and its cases cannot be compared")
-         return
+         call demand(place_of(layout%summary(i)))
       end do
+      if (.not. has_member(self%file, "/series/cam_angle")) return
+      do i = 1, size(layout%series)
+         call demand("series/"//layout%series(i)%name)
+      end do
+
+   contains
+
+      !> An error where the file does not have a quantity.
+      subroutine demand(name)
+         !> Its name
+         character(len=*), intent(in) :: name
+
+         if (allocated(error)) return
+         if (.not. has_member(self%file, "/"//name)) call raise(error, kind_usage, "'"//self%file%file//"' has no '/"//name// &
+            & "': it is from another version, and its cases cannot be compared")
+      end subroutine demand
+
    end subroutine announce
 
    !> Compare a run of cases.
@@ -81,21 +95,25 @@ contains
 
       type(case_outcome_t), allocatable :: outcomes(:)
       type(layout_t) :: own
-      logical, allocatable :: differs(:)
+      logical, allocatable :: differs(:), agrees(:)
       integer :: first, count, layout, i
 
       call take_header(record, first, count, layout)
+      allocate (own%summary(0), own%series(0), own%angle(0))
       if (layout > 0) own = self%layouts%items(layout)
       allocate (outcomes(count), differs(count))
       differs = .false.
       do i = 1, count
          call take_case(record, own, outcomes(i))
       end do
-      call compare_statuses(self, first, outcomes, differs, error)
+      if (.not. allocated(self%scalars)) call list_stored(self, error)
+      if (.not. allocated(error)) call compare_statuses(self, first, outcomes, differs, error)
+      agrees = .not. differs
+      if (.not. allocated(error)) call compare_words(self, first, outcomes, agrees, differs, error)
+      if (.not. allocated(error)) call compare_summaries(self, first, outcomes, own%summary, agrees, differs, error)
+      if (.not. allocated(error)) call compare_series(self, first, outcomes, own, agrees, differs, error)
       if (.not. allocated(error) .and. layout > 0) then
-         call compare_summaries(self, first, outcomes, own%summary, differs, error)
-         if (.not. allocated(error)) call compare_series(self, first, outcomes, own, differs, error)
-         if (.not. allocated(error)) call compare_histories(self, first, outcomes, own, differs, error)
+         call compare_histories(self, first, outcomes, own, differs, error)
          if (.not. allocated(error)) call compare_profiles(self, first, outcomes, differs, error)
       end if
       self%cases = self%cases + size(outcomes)
@@ -131,7 +149,7 @@ contains
       call read_numbers(self%file, "/summary/status", [first - 1], shape(outcomes), stored, error)
       if (allocated(error)) return
       do i = 1, size(outcomes)
-         call compare(self, "summary/status", first + i - 2, stored(i), real(outcomes(i)%status, wp), differs(i))
+         call compare(self%differences, "summary/status", first + i - 2, stored(i), real(outcomes(i)%status, wp), differs(i))
          if (outcomes(i)%status == 0 .or. nint(stored(i)) /= 0) cycle
          self%failing = self%failing + 1
          ! Threads bring cases in any order
@@ -141,8 +159,103 @@ contains
       end do
    end subroutine compare_statuses
 
-   !> Compare scalars.
-   subroutine compare_summaries(self, first, outcomes, quantities, differs, error)
+   !> List the scalars and the series that the file has.
+   subroutine list_stored(self, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer, allocatable :: extents(:)
+
+      allocate (self%scalars(0), self%series(0))
+      call list_group(self%file, "summary", self%scalars, error)
+      if (.not. allocated(error)) call list_group(self%file, choice_source, self%scalars, error)
+      if (.not. allocated(error)) call list_group(self%file, "series", self%series, error)
+      if (allocated(error) .or. size(self%series) == 0) return
+      call read_extents(self%file, "/series/cam_angle", 1, extents, error)
+      if (.not. allocated(error)) self%angles = extents(1)
+   end subroutine list_stored
+
+   !> Add what a group has of numbers of each case.
+   subroutine list_group(file, group, list, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the group
+      character(len=*), intent(in) :: group
+      !> The list so far
+      type(stored_t), allocatable, intent(inout) :: list(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=member_length), allocatable :: names(:)
+      type(error_t), allocatable :: ignored
+      type(stored_t), allocatable :: longer(:)
+      integer :: i, n
+
+      if (.not. has_member(file, "/"//group)) return
+      call list_members(file, "/"//group, names, error)
+      if (allocated(error)) return
+      n = size(list)
+      allocate (longer(n + size(names)))
+      longer(:n) = list
+      do i = 1, size(names)
+         if (any(names(i) == [character(len=9) :: "status", "cam_angle"])) cycle
+         if (is_text_dataset(file, "/"//group//"/"//trim(names(i)))) cycle
+         n = n + 1
+         longer(n)%name = group//"/"//names(i)
+         call read_text_attribute(file, "/"//trim(longer(n)%name), "units", longer(n)%unit, ignored)
+      end do
+      list = longer(:n)
+   end subroutine list_group
+
+   !> Compare messages of cases without a result, remarks of the others, and why effects take part in them or not.
+   subroutine compare_words(self, first, outcomes, agrees, differs, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> First case, from 1
+      integer, intent(in) :: first
+      !> The cases
+      type(case_outcome_t), intent(in) :: outcomes(:)
+      !> Cases whose status is that in the file, which alone are compared
+      logical, intent(in) :: agrees(:)
+      !> Cases that differ
+      logical, intent(inout) :: differs(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      do i = 1, size(outcomes)
+         ! Words on files name them from where the deck was, which does not matter
+         if (.not. agrees(i) .or. any(outcomes(i)%status == [kind_deck, kind_file])) cycle
+         call compare_one("run/warnings", merge(outcomes(i)%text, repeat(" ", len(outcomes(i)%text)), outcomes(i)%status == 0))
+         call compare_one("run/messages", merge(outcomes(i)%text, repeat(" ", len(outcomes(i)%text)), outcomes(i)%status /= 0))
+         call compare_one(choice_source//"/reasons", outcomes(i)%reasons)
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> Compare one text of the case.
+      subroutine compare_one(name, computed)
+         !> Name of the texts in the file
+         character(len=*), intent(in) :: name
+         !> The text that there is now
+         character(len=*), intent(in) :: computed
+
+         character(len=:), allocatable :: stored
+
+         if (allocated(error)) return
+         stored = ""
+         if (has_member(self%file, "/"//name)) call read_text(self%file, "/"//name, [first + i - 2], stored, error)
+         if (.not. allocated(error)) call compare(self%differences, name, first + i - 2, stored, computed, differs(i))
+      end subroutine compare_one
+
+   end subroutine compare_words
+
+   !> Compare scalars: those of the file, which has all that are computed.
+   subroutine compare_summaries(self, first, outcomes, quantities, agrees, differs, error)
       !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> First case, from 1
@@ -151,21 +264,35 @@ contains
       type(case_outcome_t), intent(in) :: outcomes(:)
       !> Their scalars
       type(quantity_t), intent(in) :: quantities(:)
+      !> Cases whose status is that in the file, which alone are compared
+      logical, intent(in) :: agrees(:)
       !> Cases that differ
       logical, intent(inout) :: differs(:)
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
       real(wp), allocatable :: stored(:) ! [unit of the scalar]
-      integer :: i, k
+      real(wp) :: computed ! [unit of the scalar]
+      integer :: i, k, place
 
-      do k = 1, size(quantities)
-         call read_numbers(self%file, "/"//place_of(quantities(k)), [first - 1], shape(outcomes), stored, error)
-         if (allocated(error)) return
-         do i = 1, size(outcomes)
-            if (outcomes(i)%status /= 0) cycle
-            call compare(self, place_of(quantities(k)), first + i - 2, stored(i), outcomes(i)%summary(k), differs(i))
-         end do
+      do k = 1, size(self%scalars)
+         associate (scalar => self%scalars(k))
+            call read_numbers(self%file, "/"//trim(scalar%name), [first - 1], shape(outcomes), stored, error)
+            if (allocated(error)) return
+            do place = size(quantities), 1, -1
+               if (place_of(quantities(place)) == scalar%name) exit
+            end do
+            do i = 1, size(outcomes)
+               if (.not. agrees(i)) cycle
+               computed = not_a_number()
+               if (place > 0 .and. outcomes(i)%status == 0) then
+                  computed = outcomes(i)%summary(place)
+                  call compare(self%differences, trim(scalar%name)//" (unit)", first + i - 2, scalar%unit, &
+                     & quantities(place)%unit, differs(i))
+               end if
+               call compare(self%differences, trim(scalar%name), first + i - 2, stored(i), computed, differs(i))
+            end do
+         end associate
       end do
    end subroutine compare_summaries
 
@@ -179,8 +306,8 @@ contains
       place = group_of_source(scalar%source)//"/"//scalar%name
    end function place_of
 
-   !> Compare series, of cases that have some.
-   subroutine compare_series(self, first, outcomes, layout, differs, error)
+   !> Compare series, of cases that have some and of cases without a result, which must have none.
+   subroutine compare_series(self, first, outcomes, layout, agrees, differs, error)
       !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> First case, from 1
@@ -189,24 +316,38 @@ contains
       type(case_outcome_t), intent(in) :: outcomes(:)
       !> Their layout
       type(layout_t), intent(in) :: layout
+      !> Cases whose status is that in the file, which alone are compared
+      logical, intent(in) :: agrees(:)
       !> Cases that differ
       logical, intent(inout) :: differs(:)
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      real(wp), allocatable :: stored(:) ! [unit of the series]
-      integer :: i, k
+      real(wp), allocatable :: stored(:), computed(:) ! [unit of the series]
+      character(len=:), allocatable :: name
+      integer :: i, k, place
 
       do i = 1, size(outcomes)
-         if (.not. allocated(outcomes(i)%series)) cycle
-         call read_numbers(self%file, "/series/cam_angle", [0], shape(layout%angle), stored, error)
-         if (allocated(error)) return
-         call compare_row(self, "series/cam_angle", first + i - 2, stored, layout%angle, differs(i))
-         do k = 1, size(layout%series)
-            call read_numbers(self%file, "/series/"//layout%series(k)%name, [0, first + i - 2], [size(layout%angle), 1], &
-               & stored, error)
+         if (.not. agrees(i) .or. (outcomes(i)%status == 0 .and. .not. allocated(outcomes(i)%series))) cycle
+         if (allocated(outcomes(i)%series)) then
+            call read_numbers(self%file, "/series/cam_angle", [0], shape(layout%angle), stored, error)
             if (allocated(error)) return
-            call compare_row(self, "series/"//layout%series(k)%name, first + i - 2, stored, outcomes(i)%series(:, k), differs(i))
+            call compare(self%differences, "series/cam_angle", first + i - 2, stored, layout%angle, differs(i))
+         end if
+         do k = 1, size(self%series)
+            name = trim(self%series(k)%name)
+            computed = spread(not_a_number(), 1, merge(size(layout%angle), self%angles, allocated(outcomes(i)%series)))
+            call read_numbers(self%file, "/"//name, [0, first + i - 2], [size(computed), 1], stored, error)
+            if (allocated(error)) return
+            do place = size(layout%series), 1, -1
+               if ("series/"//layout%series(place)%name == name) exit
+            end do
+            if (place > 0 .and. allocated(outcomes(i)%series)) then
+               computed = outcomes(i)%series(:, place)
+               call compare(self%differences, name//" (unit)", first + i - 2, self%series(k)%unit, &
+                  & layout%series(place)%unit, differs(i))
+            end if
+            call compare(self%differences, name, first + i - 2, stored, computed, differs(i))
          end do
       end do
    end subroutine compare_series
@@ -236,7 +377,7 @@ contains
             name = trim(history_group(layout%history))//"/"//layout%history(k)%name
             call read_numbers(self%file, "/"//name, [0, first + i - 2], [size(outcomes(i)%history, 1), 1], stored, error)
             if (allocated(error)) return
-            call compare_row(self, name, first + i - 2, stored, outcomes(i)%history(:, k), differs(i))
+            call compare(self%differences, name, first + i - 2, stored, outcomes(i)%history(:, k), differs(i))
          end do
       end do
    end subroutine compare_histories
@@ -264,7 +405,7 @@ contains
                call sample_record(outcomes(i)%profiles, size(outcomes(i)%profiles%angle), sampled)
                call compare_record(self, "ehl", number, sampled, differs(i), error)
             else
-               call compare(self, "ehl", number, not_a_number(), 1.0_wp, differs(i))
+               call compare(self%differences, "ehl", number, not_a_number(), 1.0_wp, differs(i))
             end if
          else if (outcomes(i)%lacks_profiles) then
             if (has_member(self%file, "/ehl")) call compare_missing(self, "ehl", number, differs(i), error)
@@ -289,7 +430,7 @@ contains
       real(wp), allocatable :: stored(:) ! [m]
 
       call read_numbers(self%file, "/"//group//"/half_width", [0, number], [1, 1], stored, error)
-      if (.not. allocated(error)) call compare(self, group, number, stored(1), not_a_number(), differs)
+      if (.not. allocated(error)) call compare(self%differences, group, number, stored(1), not_a_number(), differs)
    end subroutine compare_missing
 
    !> Compare the profiles of a case.
@@ -315,115 +456,22 @@ contains
       do i = 1, size(list)
          call read_numbers(self%file, "/"//group//"/"//list(i)%name, [0, number], [size(record%angle), 1], stored, error)
          if (allocated(error)) return
-         call compare_row(self, group//"/"//list(i)%name, number, stored, record%values(:, i), differs)
+         call compare(self%differences, group//"/"//list(i)%name, number, stored, record%values(:, i), differs)
       end do
       call read_numbers(self%file, "/"//group//"/x", [0, number], [size(record%nodes), 1], stored, error)
       if (allocated(error)) return
-      call compare_row(self, group//"/x", number, stored, record%nodes, differs)
+      call compare(self%differences, group//"/x", number, stored, record%nodes, differs)
       call read_numbers(self%file, "/"//group//"/pressure", [0, 0, number], [shape(record%pressure), 1], stored, error)
       if (allocated(error)) return
-      call compare_row(self, group//"/pressure", number, stored, reshape(record%pressure, [size(record%pressure)]), differs)
+      call compare(self%differences, group//"/pressure", number, stored, reshape(record%pressure, [size(record%pressure)]), differs)
       call read_numbers(self%file, "/"//group//"/film", [0, 0, number], [shape(record%film), 1], stored, error)
       if (allocated(error)) return
-      call compare_row(self, group//"/film", number, stored, reshape(record%film, [size(record%film)]), differs)
+      call compare(self%differences, group//"/film", number, stored, reshape(record%film, [size(record%film)]), differs)
       if (.not. allocated(record%film_rise)) return
       call read_numbers(self%file, "/"//group//"/film_rise", [0, 0, number], [shape(record%film_rise), 1], stored, error)
       if (allocated(error)) return
-      call compare_row(self, group//"/film_rise", number, stored, reshape(record%film_rise, [size(record%film_rise)]), differs)
+      call compare(self%differences, group//"/film_rise", number, stored, reshape(record%film_rise, [size(record%film_rise)]), &
+         & differs)
    end subroutine compare_record
-
-   !> Compare the numbers of a case; what is kept is the one that differs most.
-   subroutine compare_row(self, name, number, stored, computed, differs)
-      !> The sink
-      class(comparison_sink_t), intent(inout) :: self
-      !> Name of the quantity in the file
-      character(len=*), intent(in) :: name
-      !> Number of the case, from 0
-      integer, intent(in) :: number
-      !> The numbers in the file and those computed now [unit of the quantity]
-      real(wp), intent(in) :: stored(:), computed(:)
-      !> Does the case differ?
-      logical, intent(inout) :: differs
-
-      integer :: i, worst
-
-      worst = 0
-      do i = 1, size(stored)
-         if (transfer(stored(i), 0_int64) == transfer(computed(i), 0_int64)) cycle
-         if (worst == 0) worst = i
-         if (relative_difference(stored(i), computed(i)) > relative_difference(stored(worst), computed(worst))) worst = i
-      end do
-      if (worst > 0) call compare(self, name, number, stored(worst), computed(worst), differs)
-   end subroutine compare_row
-
-   !> Compare two numbers bit by bit.
-   subroutine compare(self, name, case_number, stored, computed, differs)
-      !> The sink
-      class(comparison_sink_t), intent(inout) :: self
-      !> Name of the quantity in the file
-      character(len=*), intent(in) :: name
-      !> Number of the case, from 0
-      integer, intent(in) :: case_number
-      !> The number in the file and the one computed now [unit of the quantity]
-      real(wp), intent(in) :: stored, computed
-      !> Does the case differ?
-      logical, intent(inout) :: differs
-
-      type(difference_t), allocatable :: longer(:)
-      real(wp) :: relative ! [-]
-      integer :: place
-      logical :: is_new
-
-      if (transfer(stored, 0_int64) == transfer(computed, 0_int64)) return
-      differs = .true.
-      if (.not. allocated(self%differences)) allocate (self%differences(0))
-      place = 1
-      do while (place <= size(self%differences))
-         if (self%differences(place)%name >= name) exit
-         place = place + 1
-      end do
-      is_new = place > size(self%differences)
-      if (.not. is_new) is_new = self%differences(place)%name /= name
-      if (is_new) then
-         allocate (longer(size(self%differences) + 1))
-         longer(:place - 1) = self%differences(:place - 1)
-         longer(place)%name = name
-         longer(place + 1:) = self%differences(place:)
-         call move_alloc(longer, self%differences)
-      end if
-      relative = relative_difference(stored, computed)
-      associate (difference => self%differences(place))
-         difference%cases = difference%cases + 1
-         ! Of equal differences that of the first case, since threads bring cases in any order
-         if (difference%cases > 1 .and. (relative < difference%largest .or. &
-            & .not. relative > difference%largest .and. case_number > difference%case_number)) return
-         difference%largest = relative
-         difference%case_number = case_number
-      end associate
-   end subroutine compare
-
-   !> Difference of two numbers relative to the larger one.
-   pure function relative_difference(some, other) result(difference)
-      !> Two numbers [any unit]
-      real(wp), intent(in) :: some, other
-      !> Their difference [-]; huge where one of them is no finite number
-      real(wp) :: difference
-
-      ! Bits of the exponent, all of which are set where a number is not finite, and those of the fraction, which tell not-a-number
-      ! from infinity
-      integer(int64), parameter :: of_exponent = shiftl(2047_int64, 52), of_fraction = not(shiftl(4095_int64, 52))
-      integer(int64) :: bits(2)
-      real(wp) :: larger ! [any unit]
-
-      ! A damaged file may hold a signalling not-a-number, which even `ieee_is_nan` of gfortran compares and thereby traps
-      bits = transfer([some, other], bits)
-      difference = 0.0_wp
-      if (all(iand(bits, of_exponent) == of_exponent .and. iand(bits, of_fraction) /= 0_int64)) return
-      difference = huge(1.0_wp)
-      if (any(iand(bits, of_exponent) == of_exponent)) return
-      ! Divided first, since the difference may overflow
-      larger = max(abs(some), abs(other), tiny(1.0_wp))
-      difference = abs(some/larger - other/larger)
-   end function relative_difference
 
 end module camroller_comparison_sink

@@ -18,7 +18,7 @@ module camroller_output_cases
    private
 
    public :: check_position, add_layout, gather_row, write_series_row, write_rows, write_remark, &
-      & write_status, group_of_source
+      & write_status, choice_source, group_of_source
 
    !> Datasets up to this size are one contiguous block, larger ones are cut into chunks [byte]
    real(wp), parameter :: contiguous_size = 65536.0_wp

@@ -9,7 +9,7 @@ import pytest
 from conftest import ROOT, done, run
 from sweeps import write_deck
 
-USAGE, FILE, DIFFERENCE = 2, 6, 7
+USAGE, DOMAIN, FILE, DIFFERENCE = 2, 4, 6, 7
 
 
 @pytest.fixture(scope="module")
@@ -42,6 +42,50 @@ def test_differences_are_reported(camroller, folder, tmp_path):
     first, second = (result.stderr.index(f"  {name}: in 1 case") for name in ("series/contact_load", "summary/mean_torque_drive"))
     assert first < second, "the largest difference is told first"
     assert "  commit: 'another' made the file, this is '" in result.stderr
+
+
+def rewrite(file, name, number, value):
+    """Give one case another value."""
+    values = file[name][()]
+    values[number] = value
+    file[name][...] = values
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda file: rewrite(file, "run/warnings", 2, "another"), "1 of 4 cases differs\n  run/warnings: in 1 case, another text, first in case 2\n"),
+    (lambda file: file.__delitem__("run/warnings"), "4 of 4 cases differ\n  run/warnings: in 4 cases, another text, first in case 0\n"),
+    (lambda file: file["summary/mean_torque_drive"].attrs.__setitem__("units", "N mm"),
+     "4 of 4 cases differ\n  summary/mean_torque_drive (unit): in 4 cases, another text, first in case 0\n"),
+    (lambda file: file["series/contact_load"].attrs.__setitem__("units", "kN"),
+     "1 of 4 cases differs\n  series/contact_load (unit): in 1 case, another text, first in case 2\n"),
+    (lambda file: file["summary"].create_dataset("more", data=[1.0] * 4),
+     "4 of 4 cases differ\n  summary/more: in 4 cases, a number in only one of the files, in case 0\n"),
+    (lambda file: file["series"].create_dataset("more", data=[[0.5] * 36] * 4),
+     "1 of 4 cases differs\n  series/more: in 1 case, a number in only one of the files, in case 2\n"),
+])
+def test_words_units_and_what_is_only_in_the_file_are_compared(camroller, folder, tmp_path, change, words):
+    shutil.copy(folder / "deck.h5", tmp_path / "x.h5")
+    with h5py.File(tmp_path / "x.h5", "r+") as file:
+        change(file)
+    for threads in (1, 4):
+        result = run(camroller, "rerun", "x.h5", "--threads", threads, folder=tmp_path)
+        assert result.returncode == DIFFERENCE and "x.h5: " + words in result.stderr
+
+
+def test_cases_without_a_result_are_compared(camroller, tmp_path):
+    """Their messages, and that they have no numbers; some laws have scalars that others do not have."""
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 60, 31.5 key_2 = 'cam_bearings.law' "
+                      "values_2 = 'long_full_sommerfeld', 'finite'")
+    assert run(camroller, "sweep", deck, "--set", "sweep.series=all", "--quiet", folder=tmp_path).returncode == DOMAIN
+    assert "4 cases are the same to the last bit" in done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout
+    for name, value, words in (("summary/mean_torque_drive", 1, "a number in only one of the files, in case 1\n"),
+                               ("series/contact_load", 1, "a number in only one of the files, in case 1\n"),
+                               ("run/messages", "another", "another text, first in case 1\n")):
+        shutil.copy(tmp_path / "deck.h5", tmp_path / "x.h5")
+        with h5py.File(tmp_path / "x.h5", "r+") as file:
+            rewrite(file, name, 1, value)
+        result = run(camroller, "rerun", "x.h5", folder=tmp_path)
+        assert result.returncode == DIFFERENCE and f"x.h5: 1 of 4 cases differs\n  {name}: in 1 case, {words}" in result.stderr
 
 
 @pytest.mark.parametrize("deck", ["tabulated_lift", "three_cam_head"])
