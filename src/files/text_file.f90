@@ -6,7 +6,8 @@ module camroller_text_file
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_c_library, only : c_access, c_fclose, c_fopen, c_fread, c_fseek, c_ftell
    use camroller_error, only : error_t, raise, kind_file
-   use camroller_system_file, only : error_number, is_folder, system_words
+   use camroller_file_facts, only : facts_of_path, file_facts_t, kind_in_words
+   use camroller_system_file, only : error_number, system_words
    implicit none
    private
 
@@ -19,8 +20,6 @@ module camroller_text_file
    integer(int64), parameter :: largest_size = 64_int64*1024_int64*1024_int64
    !> What `fseek` takes for the start and the end of a file, and `access` to ask whether there is one
    integer(c_int), parameter :: from_start = 0_c_int, from_end = 2_c_int, is_it_there = 0_c_int
-   !> Error number of a folder that is taken for a file (EISDIR): opening one is no error
-   integer(c_int), parameter :: is_a_folder = 21_c_int
 
 contains
 
@@ -91,12 +90,21 @@ contains
       !> File error where it cannot be read
       type(error_t), allocatable, intent(out) :: error
 
+      type(file_facts_t) :: facts
       type(c_ptr) :: stream
+      character(len=:), allocatable :: advice
       integer(int64) :: bytes, found
       logical :: is_fine
 
       if (c_access(path//c_null_char, is_it_there) /= 0) then
          call raise(error, kind_file, "there is no file '"//path//"'")
+         return
+      end if
+      facts = facts_of_path(path)
+      if (.not. facts%is_regular) then
+         advice = ""
+         if (kind_in_words(facts) == "a pipe") advice = "; only a deck may come by one, as the standard input, whose name is -"
+         call raise(error, kind_file, "cannot read '"//path//"': it is "//kind_in_words(facts)//advice)
          return
       end if
       stream = c_fopen(path//c_null_char, "rb"//c_null_char)
@@ -115,7 +123,7 @@ contains
          is_fine = is_fine .and. found == bytes
       end if
       if (c_fclose(stream) /= 0) is_fine = .false.
-      if (.not. is_fine) call say_why(path, merge(is_a_folder, 0_c_int, is_folder(path)), error)
+      if (.not. is_fine) call say_why(path, 0_c_int, error)
    end subroutine read_bytes
 
    !> Say why a file cannot be read: in the words of the system where it sees something wrong.

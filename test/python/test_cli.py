@@ -1,5 +1,6 @@
 """The program from outside: commands, options, exit codes, where text goes."""
 
+import os
 import re
 import socket
 
@@ -133,13 +134,16 @@ def test_missing_deck_is_a_file_error(camroller):
 
 
 def test_a_folder_in_place_of_a_deck_is_refused(camroller):
-    assert "cannot read 'decks': Is a directory" in refused(run(camroller, "check", "decks"), FILE)
+    assert "cannot read 'decks': it is a folder" in refused(run(camroller, "check", "decks"), FILE)
 
 
-def test_what_cannot_be_opened_is_refused_in_the_words_of_the_system(camroller, tmp_path):
+def test_a_socket_or_a_pipe_in_place_of_a_deck_is_refused(camroller, tmp_path):
     with socket.socket(socket.AF_UNIX) as listener:
         listener.bind(str(tmp_path / "socket"))
-        assert "cannot read 'socket': No such device or address" in refused(run(camroller, "check", "socket", folder=tmp_path), FILE)
+        assert "cannot read 'socket': it is a socket\n" in refused(run(camroller, "check", "socket", folder=tmp_path), FILE)
+    os.mkfifo(tmp_path / "pipe")
+    words = "cannot read 'pipe': it is a pipe; only a deck may come by one, as the standard input, whose name is -\n"
+    assert words in refused(run(camroller, "check", "pipe", folder=tmp_path), FILE)
 
 
 def test_mistakes_are_deck_errors(camroller, tmp_path):
