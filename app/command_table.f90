@@ -116,7 +116,8 @@ contains
       call add_option(commands, "--draw", "", "FILE.svg", "draw the mechanism to scale")
       call add_option(commands, "--draw-lift", "", "FILE.svg", "draw lift, velocity, acceleration and jerk, of a table also "// &
          & "before smoothing")
-      call add_option(commands, "--cam", "", "FILE.csv", "write the cam as a table: contour, radius of curvature, pressure angle")
+      call add_option(commands, "--cam", "", "FILE.csv", "write the cam as a table: contour, radius of curvature, pressure "// &
+         & "angle; no table of another cam is replaced")
    end subroutine list_runs
 
    !> Commands that measure, and the numerical film over the cycle.

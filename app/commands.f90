@@ -40,6 +40,7 @@ module camroller_commands
    use camroller_run_command, only : merge_deck, run_deck, sweep_deck
    use camroller_stop_signal, only : end_on_signals
    use camroller_streams, only : close_output_stream, hold_streams, print_lines, print_text, tell
+   use camroller_text_file, only : read_text_file
    use camroller_sweep_cost, only : case_to_try, cost_in_words
    use camroller_team, only : team_t
    use camroller_version, only : version_text, build_commit, compiler_facts
@@ -306,8 +307,28 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       call check_place(path, kind, inputs, error)
+      if (.not. allocated(error) .and. kind%name == cam_kind%name) call keep_contour(path, text, error)
       if (.not. allocated(error)) call save_text(path, kind, text, error)
    end subroutine save_beside
+
+   !> An error where a table of a cam would replace another one: a deck may have it as its lift, after changes by hand.
+   subroutine keep_contour(path, text, error)
+      !> Path of the table, where a table of a cam may be
+      character(len=*), intent(in) :: path
+      !> What it is to hold
+      character(len=*), intent(in) :: text
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(error_t), allocatable :: without_file
+      character(len=:), allocatable :: earlier
+
+      call read_text_file(path, earlier, without_file)
+      if (allocated(without_file)) return
+      if (earlier == "" .or. earlier == text) return
+      call raise(error, kind_file, "'"//path//"' exists and holds another cam, which may have been changed by hand; give "// &
+         & "another name, or remove it first")
+   end subroutine keep_contour
 
    !> Lines as comments of a deck.
    pure function replaced(text) result(commented)

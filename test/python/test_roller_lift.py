@@ -113,6 +113,7 @@ def test_a_contour_that_no_roller_can_follow_is_refused(camroller, tmp_path, cha
 def cam_table(camroller, folder, deck, *values):
     """Columns of the table of a cam by their names."""
     path = folder / "cam.csv"
+    path.unlink(missing_ok=True)
     words = [camroller, "check", str(deck), "--cam", str(path), *(w for v in values for w in ("--set", v))]
     result = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, check=False)
     assert result.returncode == 0, result.stderr
@@ -204,3 +205,15 @@ def test_the_table_of_the_cam_replaces_no_file_that_was_read(camroller, tmp_path
     deck.write_text((ROOT / "decks/thesis.nml").read_text(encoding="utf-8"), encoding="utf-8")
     result = subprocess.run([camroller, "check", str(deck), "--cam", str(deck)], capture_output=True, text=True, check=False)
     assert result.returncode != 0 and deck.read_text(encoding="utf-8").startswith((ROOT / "decks/thesis.nml").read_text(encoding="utf-8")[:40])
+
+
+def test_the_table_of_the_cam_replaces_no_other_cam(camroller, tmp_path):
+    """A contour that was changed by hand looks like one that was not."""
+    words = [camroller, "check", "decks/thesis.nml", "--no-sweep", "--cam", str(tmp_path / "cam.csv")]
+    for _ in range(2):
+        assert subprocess.run(words, capture_output=True, cwd=ROOT, check=False).returncode == 0
+    text = (tmp_path / "cam.csv").read_text(encoding="utf-8").replace(",18,", ",18.01,", 1)
+    (tmp_path / "cam.csv").write_text(text, encoding="utf-8")
+    result = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, check=False)
+    assert result.returncode == 6 and "cam.csv' exists and holds another cam, which may have been changed by hand" in result.stderr
+    assert (tmp_path / "cam.csv").read_text(encoding="utf-8") == text
