@@ -170,14 +170,12 @@ contains
                & /model%modulus)) shares%inlet_share = shares%inlet_share + weight
             if (state%contact%film_rise > 0.0_wp) call note_hot_film(shares, model, state%contact%film_rise, angle, weight)
          end if
-         if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, model, state, angle, weight)
-         if (model%rolling_law == rolling_goksem_hargreaves .and. state%contact%is_touching) call note_rolling(shares, model, &
-            & state, groups, angle, weight)
-         if (state%contact%is_touching .and. .not. takes_whole_load(model%film_law)) then
-            call note_thin(shares, state%contact%film_ratio, angle, weight)
+         if (state%contact%is_touching) then
+            if (allocated(model%axial)) call note_ends(shares, model, state, angle, weight)
+            if (model%rolling_law == rolling_goksem_hargreaves) call note_rolling(shares, model, state, groups, angle, weight)
+            if (.not. takes_whole_load(model%film_law)) call note_thin(shares, state%contact%film_ratio, angle, weight)
+            call note_shear(shares, model, state, groups, angle, weight)
          end if
-         if (state%contact%is_touching .and. abs(state%contact%sliding_speed) > notable_slip*abs(state%contact%rolling_speed)) &
-            & call note_shear(shares, model, state, groups, angle, weight)
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares
@@ -206,7 +204,7 @@ contains
       class(shares_t), intent(inout) :: shares
       !> Model of the lobe
       type(model_t), intent(in) :: model
-      !> State of the follower, whose roller slips in contact
+      !> State of the follower, in contact
       type(state_t), intent(in) :: state
       !> Groups of its film
       type(groups_t), intent(in) :: groups
@@ -219,6 +217,7 @@ contains
       real(wp) :: ratio, limit, part
 
       associate (contact => state%contact)
+         if (abs(contact%sliding_speed) <= notable_slip*abs(contact%rolling_speed)) return
          if (.not. model%has_wide_shear) then
             ratio = dry_shear_ratio(model%oil, film_pressure(contact%load - contact%asperity_load, contact%apparent_area, &
                & contact%real_area), groups%speed, groups%load, groups%load*(1.0_wp - contact%asperity_load/contact%load), &
@@ -229,8 +228,9 @@ contains
                shares%rigid_angle = angle
             end if
          end if
-         if (contact%relative_spin*contact%rolling_speed < -notable_slip*contact%rolling_speed**2/model%roller_radius) &
-            & shares%backward_share = shares%backward_share + weight
+         if (contact%relative_spin*contact%rolling_speed < -notable_slip*contact%rolling_speed**2/model%roller_radius) then
+            shares%backward_share = shares%backward_share + weight
+         end if
          if (model%has_local_limit) return
          limit = model%limiting_coefficient*contact%load/contact%sheared_area
          part = abs(contact%shear)/(model%limiting_coefficient*contact%load*(1.0_wp - contact%real_area/contact%apparent_area))

@@ -265,8 +265,10 @@ contains
       rise = 0.0_wp
       if (allocated(case%bearing_heat)) then
          do i = 1, size(result%summary)
-            if (index(result%summary(i)%name, "max_bearing_") == 1 .and. index(result%summary(i)%name, "temperature_rise") > 0) &
-               & rise = max(rise, result%summary_values(i))
+            associate (name => result%summary(i)%name)
+               if (index(name, "max_bearing_") /= 1 .or. index(name, "_temperature_rise") == 0) cycle
+            end associate
+            rise = max(rise, result%summary_values(i))
          end do
       end if
       call find_far_points(case, rise, distance, words)
