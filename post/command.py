@@ -6,8 +6,11 @@ from pathlib import Path
 import sys
 import tempfile
 
+from matplotlib.text import Text
+
 from read import ResultError
 
+POWER = r"$\mathdefault{"  # begins a number along a logarithmic axis
 CLOSED_PIPE = 141  # exit code of a program that a closed pipe ends: 128 and the number of the signal
 
 
@@ -46,7 +49,15 @@ def save_figure(figure, target, **options):
     kind = target.suffix[1:].lower()
     if kind not in kinds:
         raise ResultError(f"{target}: no kind of figure; there is {', '.join('.' + known for known in sorted(kinds))}")
+    words_as_they_are(figure)
     write_file(target, lambda beside: figure.savefig(beside, format=kind, **options))
+
+
+def words_as_they_are(figure):
+    """Let no `$` in titles and values of decks, names of files and the like begin a formula; powers of ten along axes are formulas."""
+    for text in figure.findobj(Text):
+        if "$" in text.get_text() and not text.get_text().startswith(POWER):
+            text.set_parse_math(False)
 
 
 def write_text(target, text):

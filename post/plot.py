@@ -29,7 +29,7 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
 from command import DPI, run, save_figure  # noqa: E402
 from figures import FIGURES, draw  # noqa: E402
 from layout import Layout, chosen_cases, not_computed, not_computed_words  # noqa: E402
-from measured import case_for, case_words, compare, draw_comparison, read_table  # noqa: E402
+from measured import case_words, cases_for, compare, draw_comparison, read_table  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 
@@ -69,12 +69,12 @@ def draw_measured(result, options):
     if not cases:
         raise ResultError("no case is left to draw: see --cases")
     table = read_table(options.measured)
-    case = case_for(table, result, cases)
-    comparison = compare(table, result, case)
+    cases = cases_for(table, result, cases)
+    comparison = compare(table, result, cases)
     folder = Path(options.output) if options.output else result.path.parent
     target = folder / f"{result.path.stem}_measured.{options.format}"
-    save_figure(draw_comparison(table, result, case, comparison), target, dpi=options.dpi, metadata=NO_DATE[options.format])
-    print(f"{table.path} less {result.path}{case_words(table, result, case)}: {comparison.words()}")
+    save_figure(draw_comparison(table, result, cases, comparison), target, dpi=options.dpi, metadata=NO_DATE[options.format])
+    print(f"{table.path} less {result.path}{case_words(table, result, cases)}: {comparison.words()}")
     print(f"measured: {target}")
     return 0
 
@@ -108,7 +108,7 @@ def parser():
     made.add_argument("--measured", metavar="TABLE.csv",
                       help="measured values with a heading as 'cam angle [deg], torque [N m]', 'crank angle [deg], torque [N m]' or "
                            "'speed [rpm], temperature [degC], mean torque [N mm]': drawn with the first file, over an angle with its "
-                           "first chosen case that has series; prints bias, root mean square and the worst point of measured less computed")
+                           "first chosen case that has series, operating points with the one chosen case at each; prints bias, root mean square and the worst point of measured less computed")
     made.add_argument("--dpi", type=DPI, default=130, help="pixels per inch of a PNG (default: 130)")
     made.add_argument("--angles", choices=["event", "cycle"],
                       help="cam angles of the single figures: around the valve event or the whole cycle "

@@ -5,8 +5,8 @@
     python post/plot_audit.py FILE --table                       a table in Markdown instead of a figure
 
 One panel each for mean torque, smallest film, slip and time: a bar from the smallest to the largest change without each effect over
-the cases, a dot for each case, and for the first three a cross for what was expected before the run. Needs no display. Exit code 2
-where the file is no audit.
+the cases, a dot for each case, and for the first three a cross for what was expected before the run; how many cases and runs without
+an effect have no result. Needs no display. Exit code 2 where the file is no audit.
 """
 
 import argparse
@@ -25,7 +25,7 @@ from command import run, save_figure  # noqa: E402
 from read import ResultError, opened, text_columns  # noqa: E402
 
 QUANTITIES = {"mean_torque": "mean friction torque", "minimum_film": "smallest film", "slip": "slip per turn"}
-COLUMNS = ["run", "effect", "status", "time_share", "is_left_out",
+COLUMNS = ["case", "run", "effect", "status", "time_share", "is_left_out",
            *(prefix + name for name in QUANTITIES for prefix in ("change_", "estimate_"))]
 FLOOR = 1e-7  # changes below are drawn there: the accuracy of the runs
 UNKNOWN = 1e10  # estimates from here on mean that nothing can be said
@@ -44,8 +44,17 @@ def read_audit(path):
 
 
 def without(audit, effect):
-    """Rows of the runs without an effect that have a result."""
-    return (audit["run"] == "without") & (audit["effect"] == effect) & (audit["status"] == 0)
+    """Rows of the runs without an effect that have a result, as the run with it has."""
+    return (audit["run"] == "without") & (audit["effect"] == effect) & (audit["status"] == 0) & np.isfinite(audit["time_share"])
+
+
+def left_out(audit):
+    """How many cases, and of the others how many runs without an effect, have no result: parts of a sentence."""
+    is_listed, is_without, failed = audit["run"] == "listed", audit["run"] == "without", audit["status"] != 0
+    lost = set(audit["case"][is_listed & failed])
+    is_without &= ~np.isin(audit["case"], list(lost))
+    counts = [(len(lost), is_listed.sum(), "cases"), ((is_without & failed).sum(), is_without.sum(), "runs without an effect")]
+    return [f"{count} of {of_all} {what} {'has' if count == 1 else 'have'} no result" for count, of_all, what in counts if count]
 
 
 def effects(audit):
@@ -81,6 +90,8 @@ def draw(audit):
     panels[0].set_yticks(places, [name.replace("_", " ") for name in names])
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles[:2], labels[:2], loc="outside lower center", ncols=2, frameon=False)
+    if left_out(audit):
+        figure.suptitle(", ".join(left_out(audit)), fontsize="medium")
     return figure
 
 
@@ -94,7 +105,7 @@ def table(audit):
         needed = int((audit["is_left_out"][rows] == 0).sum())
         lines.append(f"| {name.replace('_', ' ')} | " + " | ".join(cells)
                      + f" | {100 * np.median(audit['time_share'][rows]):.0f} % | {needed} of {rows.sum()} |")
-    return "\n".join(lines)
+    return "\n".join([*lines, *([""] if left_out(audit) else []), *(f"{words}." for words in left_out(audit))])
 
 
 def _span(values):

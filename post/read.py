@@ -25,6 +25,7 @@ import numpy as np
 
 
 LONGEST_READ = 60.0  # [s]
+NONE_AT_ZERO = re.compile(r"seating_speed$|^min_(.*_)?film_(thickness_min|thickness_central|ratio)$")  # scalars: 0 is no value
 SLOWEST_READ = 1e7  # bytes that are read in a second at least
 
 
@@ -263,8 +264,9 @@ def _datasets(file, group):
 
 
 def _without_none(quantities):
-    """Not-a-number where a valve never meets its seat: files hold numbers alone, and a speed of seating of 0 stands for none."""
-    for name in [name for name in quantities if name.endswith("seating_speed")]:
+    """Not-a-number where a valve never meets its seat or contact is lost: files hold numbers alone, and a speed of seating or a smallest
+    film of 0 stands for none."""
+    for name in [name for name in quantities if NONE_AT_ZERO.search(name)]:
         none = quantities[name].values == 0
         for of_it in (name + suffix for suffix in ("", "_deviation", "_lowest", "_highest") if name + suffix in quantities):
             quantities[of_it].values = np.where(none, np.nan, quantities[of_it].values)

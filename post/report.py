@@ -20,7 +20,7 @@ matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "camroller",
                             "hatch.linewidth": 0.6, "hatch.color": "white"})
 
-from command import run, write_text  # noqa: E402
+from command import run, words_as_they_are, write_text  # noqa: E402
 from figures import draw  # noqa: E402
 from layout import Layout  # noqa: E402
 from quantities import Missing  # noqa: E402
@@ -118,6 +118,7 @@ def figures_of(result):
         except (Missing, ResultError):
             continue
         drawing = io.BytesIO()
+        words_as_they_are(figure)
         figure.savefig(drawing, format="svg", metadata={"Date": None})
         coded = base64.b64encode(drawing.getvalue()).decode()
         found.append(f'<figure><img alt="{name.replace("_", " ")}" src="data:image/svg+xml;base64,{coded}"></figure>')

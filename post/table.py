@@ -48,8 +48,6 @@ COLUMNS = [
 MOST_ROWS = 50
 # Statistic and series in the name of a scalar; of another lobe shape than the first the series begins with `lobe_2_`
 SCALAR = re.compile(r'(min|max|mean)_(.+)')
-# Zero where contact is lost: there is no film, which is not a thin one
-SMALLEST_FILM = re.compile(r'min_(.*_)?film_(thickness_min|thickness_central|ratio)$')
 RANGE = 'range'
 
 
@@ -95,8 +93,6 @@ def column_of(result, name, groups, take, heading=None, unit=None) -> list[str]:
         return range_of(heading or name, quantity, groups, unit)
     # A case without a result, which has no number, leaves its group without one
     values = np.array([TAKEN[take](quantity.values[group]) if take else quantity.values[group[0]] for group in groups])
-    if SMALLEST_FILM.match(name):
-        values = np.where(values == 0, np.nan, values)
     scale = factor(quantity.units, unit) if unit else None
     if scale is None:
         unit, scale = fitting_unit(name, quantity.units, values)
@@ -110,7 +106,7 @@ def range_of(heading, quantity, groups, unit) -> list[str]:
     scale = factor(quantity.units, unit) if unit else None
     if scale is None:
         unit, scale = fitting_unit(heading, quantity.units, ends)
-    return [with_unit(heading, unit), *(' to '.join(number(value * scale) for value in pair) for pair in ends)]
+    return [with_unit(heading, unit), *('-' if np.isnan(pair).any() else ' to '.join(number(value * scale) for value in pair) for pair in ends)]
 
 
 def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -> str:

@@ -4,6 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
+import plot_audit
 from plot_audit import effects, main, read_audit, table
 
 
@@ -12,6 +13,7 @@ def made_up(tmp_path):
     """An audit of two cases and two effects, one run of which failed."""
     with h5py.File(tmp_path / "made_audit.h5", "w") as file:
         audit = file.create_group("study/audit")
+        audit["case"] = np.repeat([0.0, 1.0], 3)
         audit["run"] = np.array(2 * ["listed", "without", "without"], dtype="S8")
         audit["effect"] = np.array(2 * ["", "asperity", "valve_guide"], dtype="S20")
         audit["status"] = np.array([0, 0, 0, 0, 0, 5.0])
@@ -29,6 +31,22 @@ def test_the_table_spans_the_cases_that_have_a_result(path):
     lines = table(audit).splitlines()
     assert lines[2].startswith("| asperity | -50 to -25 % |") and lines[2].endswith("| 40 % | 2 of 2 |")
     assert lines[3].endswith("| 0 % | 0 of 1 |")
+    assert lines[4:] == ["", "1 of 4 runs without an effect has no result."]
+
+
+def test_cases_without_a_result_are_counted(path, tmp_path, capsys, monkeypatch):
+    """A case that fails as it is counts as one, whatever becomes of its runs without an effect, which are compared with nothing."""
+    with h5py.File(path, "a") as file:
+        audit = file["study/audit"]
+        audit["status"][3:] = [5.0, 0.0, 5.0]
+        for name in ("change_mean_torque", "change_minimum_film", "change_slip", "time_share"):
+            audit[name][3:] = np.nan
+    audit = read_audit(path)
+    assert effects(audit) == ["asperity", "valve_guide"] and table(audit).endswith("| 0 of 1 |\n\n1 of 2 cases has no result.")
+    figures = []
+    monkeypatch.setattr(plot_audit, "save_figure", lambda figure, *_, **__: figures.append(figure))
+    assert main([str(path), "--output", str(tmp_path)]) == 0
+    assert figures[0].get_suptitle() == "1 of 2 cases has no result"
 
 
 def test_a_figure_is_drawn(path, tmp_path, capsys):

@@ -219,3 +219,13 @@ def test_words_choose_designs_and_none_is_taken_of_several(grid, capsys):
     assert "nothing else varies" in capsys.readouterr().err
     assert main([str(grid), "--where", "law=moes", "--over", "law"]) == 2
     assert "law holds words, of which --over can take no largest one" in capsys.readouterr().err
+
+
+def test_a_film_that_is_not_there_is_not_drawn_as_a_thin_one(grid):
+    with h5py.File(grid, "a") as file:
+        file["summary/min_film_thickness_min"] = np.where(np.arange(180) < 3, 0.0, 2.5e-7)
+        file["summary/min_film_thickness_min"].attrs["units"] = "m"
+    values = Sweep(grid, ["min_film_thickness_min"]).quantities["min_film_thickness_min"][0]
+    assert np.isnan(values[:3]).all() and np.allclose(values[3:], 0.25)
+    smallest = Sweep(grid, ["min_film_thickness_min"], over=["speed_rpm"], take="smallest").quantities["min_film_thickness_min"][0]
+    assert np.isnan(smallest[:3]).all() and np.allclose(smallest[3:], 0.25)

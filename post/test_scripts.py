@@ -7,6 +7,7 @@ import sys
 
 import h5py
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 import numpy as np
 import pytest
 
@@ -145,10 +146,8 @@ def test_a_closed_pipe_ends_quietly(good, tmp_path, arguments):
 
 
 def test_a_figure_is_written_whole_or_not_at_all(tmp_path):
-    class Breaks:
+    class Breaks(Figure):
         """A figure whose writing breaks in the middle."""
-        canvas = plot.FIGURES and type("Canvas", (), {"get_supported_filetypes": staticmethod(lambda: {"png": ""})})
-
         def savefig(self, target, **_):
             """Some bytes, then an error."""
             pathlib.Path(target).write_bytes(b"half")
@@ -235,3 +234,22 @@ def test_reading_that_never_ends_is_ended_with_a_line(good):
     done = subprocess.run([sys.executable, "-c", program, good["table"]], cwd=HERE, capture_output=True, text=True, timeout=50,
                           check=False)
     assert done.returncode != 0 and done.stderr.count("\n") == 1 and "goes in circles" in done.stderr
+
+
+def test_dollars_in_titles_are_no_formulas(tmp_path, monkeypatch, capsys):
+    """What would be a formula, right or wrong, is drawn letter by letter; numbers along logarithmic axes stay powers of ten."""
+    drawn, save = [], Figure.savefig
+    monkeypatch.setattr(Figure, "savefig", lambda figure, *args, **options: (drawn.append(figure), save(figure, *args, **options)))
+    table_of_rig = tmp_path / "a$b$.csv"
+    table_of_rig.write_text("speed [rpm], temperature [degC], mean torque [N mm]\n300, 25, 100\n", encoding="utf-8")
+    for title in ("$x_1^{2$", "$x_1^2$"):
+        path = without_series(write_result(tmp_path / "grid.h5", step=30.0, title=title), kept=range(9))
+        scripts = ((plot, ["--figure", "dampers"]), (plot, ["--measured", str(table_of_rig)]), (plot_sweep, []), (report, []))
+        for module, arguments in scripts:
+            drawn.clear()
+            arguments += ["--quantity", "mean_torque_drive"] * (module is plot_sweep)
+            assert command.run(lambda: module.main([str(path), *arguments]), "x") == 0, capsys.readouterr().err
+            texts = [text for text in drawn[0].findobj(Text) if title in text.get_text()]
+            assert texts and not any(text.get_parse_math() for text in texts)
+            powers = [text for text in drawn[0].findobj(Text) if text.get_text().startswith(command.POWER)]
+            assert all(text.get_parse_math() for text in powers) and ("dampers" not in arguments or powers)

@@ -98,6 +98,8 @@ def test_a_film_that_is_not_there_is_no_thin_one(grid):
             file[f"summary/{name}"][1] = 0.0
     body = rows(table_of(read_result(grid), ["min_film_thickness_min", "min_film_ratio"]))[1:]
     assert [row[-2:] for row in body[:3]] == [["0.250", "1.25"], ["-", "-"], ["0.250", "1.25"]]
+    ranges = rows(table_of(read_result(grid), ["min_film_ratio"], over=["speed_rpm"], take="range"))[1:]
+    assert {row[-1] for row in ranges} == {"-", "1.25 to 1.25"}
 
 
 def test_words_in_the_summary_are_printed_as_they_are(grid):
