@@ -1,6 +1,7 @@
 """Energy that a flexible train loses in a turn, damper by damper."""
 
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 import numpy as np
 
 from parts import head, legend_handles, legend_height
@@ -28,7 +29,8 @@ def dampers_figure(layout, _whole_cycle=None):
     if not lost:
         raise Missing("energies lost in dampers: &dynamics")
     top = max(most.values())
-    legend = legend_handles(layout, layout.drawn(layout.shown_colours(), panels))
+    lines, legend_columns = legend_handles(layout, layout.drawn(layout.shown_colours(), panels))
+    legend = [_as_bar(line) for line in lines], legend_columns
     size = 5.0 + 2.5 * len(panels), 1.6 + (0.13 * max(map(len, columns)) + 0.1) * len(lost)
     figure = Figure(figsize=(size[0], size[1] + legend_height(legend, size[0])), layout="constrained")
     for place, (axes, panel, entries) in enumerate(zip(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels, columns)):
@@ -47,3 +49,8 @@ def dampers_figure(layout, _whole_cycle=None):
     figure.axes[0].set_ylim(len(lost) - 0.5, -0.5)
     head(figure, layout, "energy lost in a turn by damper", legend, layout.shown_words(layout.shown_colours(), panels))
     return figure
+
+
+def _as_bar(line):
+    """A bar of the colour of a line of the legend; words without a line stay."""
+    return line if line.get_linestyle() == "None" else Patch(color=line.get_color(), label=line.get_label())

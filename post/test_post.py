@@ -173,6 +173,10 @@ def test_energy_lost_by_damper_has_a_bar_for_each_number_of_the_file(tmp_path):
     for place, value in enumerate(LOST.values()):
         bars = [bar for bar in axes.patches if abs(bar.get_y() + 0.5 * bar.get_height() - place) < 0.5]
         assert [bar.get_width() for bar in bars] == pytest.approx([1e3 * value, 2e3 * value])
+    # The legend shows bars
+    [shown] = figure.legends
+    assert [text.get_text() for text in shown.get_texts()] == ["300 rev/min", "600 rev/min"]
+    assert [handle.get_facecolor() for handle in shown.legend_handles] == [bar.get_facecolor() for bar in axes.patches[::3]]
     with h5py.File(path, "a") as file:
         for name in LOST:
             del file[f"summary/{name}"]

@@ -54,6 +54,16 @@ def test_the_table_is_printed(done):
     assert max(map(len, lines)) <= 132
 
 
+def first_column(lines):
+    """Names in the first column of a table as it is printed, without its head and the line at its end."""
+    return {line[:19].rstrip() for line in lines[3:] if line and not line[0].isspace() and ".h5: " not in line}
+
+
+def test_the_table_of_the_documentation_has_the_methods_of_the_program(done):
+    lines = (ROOT / "doc/accuracy_tables.txt").read_text(encoding="utf-8").splitlines()
+    assert lines[:3] == done[1].splitlines()[:3] and first_column(lines) == first_column(done[1].splitlines())
+
+
 def test_every_row_of_the_file_has_its_columns(done):
     with h5py.File(done[0]) as file:
         assert file.attrs["complete"] == 1
