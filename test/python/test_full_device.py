@@ -12,6 +12,7 @@ from sweeps import EARLIER_RESULT
 FILE_ERROR, UNFINISHED = 6, 8  # exit codes
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
 ONE = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
+QUICK = ["--set", "sweep.values_1=900", "--set", "sweep.values_2=25"]  # with the slowest decay of a disturbance
 DEVICE_FULL = (1, 7)  # the numbers of the device that is always full
 # What commands print; those that write a file do so beside
 PRINTED = {
@@ -20,7 +21,7 @@ PRINTED = {
     "export": ["export", "result.h5"], "export --summary": ["export", "result.h5", "--summary"],
     "run": ["run", "deck.nml", "-o", "new.h5", *COARSE, *ONE], "sweep": ["sweep", "deck.nml", "-o", "new.h5", *COARSE],
     "sweep --resume": ["sweep", "deck.nml", "-o", "swept.h5", "--resume", *COARSE], "rerun": ["rerun", "result.h5"],
-    "study": ["study", "deck.nml", "-o", "new.h5", "--quick", "--repeats", "1", *COARSE, *ONE],
+    "study": ["study", "deck.nml", "-o", "new.h5", "--quick", "--repeats", "1", *COARSE, *QUICK],
     "audit": ["audit", "deck.nml", "-o", "new.h5", "--repeats", "1", *COARSE, *ONE],
     "merge": ["merge", "deck.nml", "-o", "parted.h5", "--partial", *COARSE],
     "ehl": ["ehl", "film.nml", "-o", "new.h5", "--set", "sweep.values_1=300", *COARSE],

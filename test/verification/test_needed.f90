@@ -15,6 +15,7 @@ module test_needed
    use camroller_effect_choice, only : choose_effects
    use camroller_effect_list, only : choice_t
    use camroller_model, only : model_t
+   use camroller_number_text, only : integer_text
    use camroller_result, only : result_t, find_quantity
    use camroller_run, only : build_models, run_case
    use camroller_study_table, only : study_table_t, column_of
@@ -122,7 +123,11 @@ contains
       call start_tally(tally)
       do i = 1, size(hard_seeds)
          call draw_case(hard_seeds(i), text, case, is_known)
-         if (is_known) call compare_seed(hard_seeds(i), text, case, tally)
+         if (is_known) then
+            call compare_seed(hard_seeds(i), text, case, tally)
+         else
+            tally%misses = tally%misses//new_line("a")//"seed "//integer_text(hard_seeds(i))//" draws no valid case"
+         end if
       end do
       if (tally%misses == "" .and. sum(tally%known) == 0) tally%misses = "nothing is estimated"
       if (tally%misses /= "") call test_failed(error, tally%misses)
