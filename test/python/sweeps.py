@@ -1,5 +1,8 @@
 """Shared by the tests of sweeps: a deck that is quick to compute, comparison of files bit by bit."""
 
+import functools
+import pathlib
+
 import h5py
 import numpy
 
@@ -23,7 +26,13 @@ def write_deck(path, sweep=GRID):
 
 
 def content(path):
-    """Every object of a file: bytes or texts of its values, and its attributes."""
+    """Every object of a file: bytes or texts of its values, and its attributes; read once, for a reference is compared many times."""
+    state = pathlib.Path(path).stat()
+    return _content(path, state.st_ino, state.st_mtime_ns, state.st_size)
+
+
+@functools.lru_cache(maxsize=4)
+def _content(path, *_state):
     found = {}
 
     def note(name, thing):
@@ -31,7 +40,7 @@ def content(path):
         if isinstance(thing, h5py.Dataset):
             array = numpy.asarray(thing[()])
             values = array.tolist() if array.dtype == object else array.tobytes()
-        found[name] = (values, {key: str(value) for key, value in thing.attrs.items() if key not in NOT_COMPARED})
+        found[name] = (values, {key: str(thing.attrs[key]) for key in thing.attrs if key not in NOT_COMPARED})
 
     with h5py.File(path) as file:
         note("/", file)
