@@ -109,6 +109,7 @@ contains
       !> The share [-]
       real(wp) :: share
 
+      type(flexible_t) :: flexible
       type(rest_t) :: rest
       type(position_t) :: closed
       type(error_t), allocatable :: error
@@ -118,16 +119,16 @@ contains
       integer :: i, status
 
       share = 0.0_wp
-      if (.not. allocated(model%flexible)) return
-      if (model%flexible%lash > 0.0_wp) return
-      call find_rest(model%flexible, model%linkage, model%train, model%base_circle_load, rest, error)
+      flexible = train_of(model)
+      if (flexible%lash > 0.0_wp) return
+      call find_rest(flexible, model%linkage, model%train, model%base_circle_load, rest, error)
       if (.not. allocated(error)) call evaluate_geometry(model, -pi, closed, status)
       if (allocated(error)) return
       if (status /= 0) return
       call normal_direction(closed%normal_arm, closed%tangent_arm, model%linkage%a, closed%arm_angle, model%linkage%sense, normal, &
          & tangent)
       lever = closed%valve_arm/closed%normal_arm
-      along = normal(1)*real(model%flexible%axis, wp) + normal(2)*aimag(model%flexible%axis)
+      along = normal(1)*real(flexible%axis, wp) + normal(2)*aimag(flexible%axis)
       least = rest%tip_force
       most = rest%tip_force + gas
       do i = 1, 40
@@ -152,20 +153,18 @@ contains
          ! Way of the plunger [m], pressure [Pa]
          real(wp) :: plunger, pressure
 
-         associate (flexible => model%flexible)
-            plunger = 0.0_wp
-            if (allocated(flexible%adjuster)) then
-               associate (adjuster => flexible%adjuster, given => flexible%adjuster%given)
-                  pressure = max(0.0_wp, given%supply_pressure - (along*lever + flexible%tilt_cosine)*(tip - rest%tip_force) &
-                     & /adjuster%area)
-                  plunger = chamber_volume(adjuster, rest%pivot)/adjuster%area*(relative_volume(given, pressure) &
-                     & /relative_volume(given, given%supply_pressure) - 1.0_wp)
-               end associate
-            end if
-            way = (tip - rest%tip_force - gas)/(flexible%seat_stiffness + model%train%stiffness) &
-               & + (tip - rest%tip_force)/flexible%pad_stiffness + (along*lever + flexible%tilt_cosine)*plunger &
-               & + lever*(approach(tip*lever) - approach(model%base_circle_load))
-         end associate
+         plunger = 0.0_wp
+         if (allocated(flexible%adjuster)) then
+            associate (adjuster => flexible%adjuster, given => flexible%adjuster%given)
+               pressure = max(0.0_wp, given%supply_pressure - (along*lever + flexible%tilt_cosine)*(tip - rest%tip_force) &
+                  & /adjuster%area)
+               plunger = chamber_volume(adjuster, rest%pivot)/adjuster%area*(relative_volume(given, pressure) &
+                  & /relative_volume(given, given%supply_pressure) - 1.0_wp)
+            end associate
+         end if
+         way = (tip - rest%tip_force - gas)/(flexible%seat_stiffness + model%train%stiffness) &
+            & + (tip - rest%tip_force)/flexible%pad_stiffness + (along*lever + flexible%tilt_cosine)*plunger &
+            & + lever*(approach(tip*lever) - approach(model%base_circle_load))
       end function sunk
 
       !> Approach of cam and roller with the finger's bending.
@@ -175,10 +174,26 @@ contains
          !> The approach [m]
          real(wp) :: way
 
-         way = model%flexible%compliance*load**0.9_wp + load/model%flexible%finger_stiffness
+         way = flexible%compliance*load**0.9_wp + load/flexible%finger_stiffness
       end function approach
 
    end function gas_share
+
+   !> The model's train where it is flexible, or one with a fixed pivot and contacts of usual size.
+   function train_of(model) result(flexible)
+      !> The model, with a pivot
+      type(model_t), intent(in) :: model
+      !> Its train
+      type(flexible_t) :: flexible
+
+      if (allocated(model%flexible)) then
+         flexible = model%flexible
+         return
+      end if
+      call set_contacts(flexible, dynamics_t(), model%modulus, model%contact_width)
+      flexible%axis = exp(cmplx(0.0_wp, -model%pivot%axis_angle, wp))
+      flexible%tilt_cosine = model%pivot%tilt_cosine
+   end function train_of
 
    !> Natural frequencies of the linear train at full lift, and the damping ratio of the lowest.
    subroutine find_modes(model, outlook)
@@ -200,11 +215,7 @@ contains
       real(wp) :: contact_stiffness
       integer :: n, i, status
 
-      if (allocated(model%flexible)) then
-         flexible = model%flexible
-      else
-         call set_contacts(flexible, dynamics_t(), model%modulus, model%contact_width)
-      end if
+      flexible = train_of(model)
       n = merge(plunger, valve, allocated(flexible%adjuster))
       outlook%frequencies = spread(0.0_wp, 1, n)
       call evaluate_geometry(model, 0.0_wp, position, status)

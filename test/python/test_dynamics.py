@@ -237,6 +237,11 @@ def test_gas_on_the_closed_valve_is_in_the_estimate_and_has_a_remark(tmp_path, c
     usual, quiet = run(camroller, DECK, tmp_path / "usual.h5", "sweep.values_1=900")
     rigid = usual["dynamic_load_max"] / usual["load_factor"]
     assert summary["load_factor"] == pytest.approx(summary["dynamic_load_max"] / rigid, rel=0.15)
+    # A rigid train takes contacts of usual size, which are those of the deck, for this as well
+    text = (tmp_path / "deck.nml").read_text()
+    (tmp_path / "stiff.nml").write_text(re.sub(r"&(dynamics|spring_surge)\n.*?\n/\n", "", text, flags=re.S))
+    stiff, told = run(camroller, tmp_path / "stiff.nml", tmp_path / "stiff.h5", "sweep.values_1=900")
+    assert stiff["load_factor"] == pytest.approx(summary["load_factor"], rel=1e-6) and "its largest contact load an estimated" in told
     assert "the gas presses" not in quiet and usual["closed_load_max"] < usual["dynamic_load_max"]
     hard, _ = run(camroller, tmp_path / "deck.nml", tmp_path / "hard.h5", "sweep.values_1=900", "dynamics.seat_stiffness_N_m=5e9")
     assert hard["closed_load_max"] < 0.25 * summary["closed_load_max"]
