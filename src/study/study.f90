@@ -8,7 +8,7 @@ module camroller_study
    use camroller_names, only : name_length
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t, automatic_method, quasi_static
-   use camroller_number_text, only : number_text
+   use camroller_number_text, only : integer_text, number_text
    use camroller_ode_methods, only : method_facts
    use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word
    use camroller_study_trial, only : trial_t, run_trial, solve_trial, errors_against, smallest_error
@@ -159,12 +159,29 @@ contains
          variant%numerics%tolerance = plan%tolerances(i)
          call run_trial(variant, 1, trials(i))
          call raise_failure(trials(i), trim(plan%methods(i)), error)
+         if (.not. allocated(error)) call check_period(trials(i)%period, error)
          if (allocated(error)) return
       end do
       reference = trials(1)
       disagreement = maxval(errors_against(trials(1), trials(2)))
       call check_agreement(plan, disagreement, error)
    end subroutine make_reference
+
+   !> Refuse a reference whose turns differ: the last turn of a way may be another one.
+   subroutine check_period(period, error)
+      !> Cycles of its period, 0 where it has none
+      integer, intent(in) :: period
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (period > 1) then
+         call raise(error, kind_convergence, "no reference: the motion of the train repeats after "//integer_text(period)// &
+            & " cycles only, and two ways may end with different turns of them")
+      else if (period == 0) then
+         call raise(error, kind_convergence, "no reference: the motion of the train has no period, and no two ways have the "// &
+            & "same turns")
+      end if
+   end subroutine check_period
 
    !> Refuse references that differ by too much of the smallest error that is shown.
    subroutine check_agreement(plan, disagreement, error)

@@ -36,6 +36,8 @@ module camroller_study_trial
       real(wp) :: mean_friction = 0.0_wp
       !> Smallest film at the output angles [m]
       real(wp) :: smallest_film = 0.0_wp
+      !> Cycles of a flexible train's period; 0 where it has none, 1 for a rigid train
+      integer :: period = 1
       !> Part of its turns that the roller loses per cam revolution [-]
       real(wp) :: revolution_slip = 0.0_wp
       !> Error of the sliding speed as the program estimates it; not a number where it does not [-]
@@ -85,6 +87,7 @@ contains
       trial%estimated_error = scalar("estimated_error")
       trial%evaluations = scalar("counter_evaluations")
       trial%steps = scalar("counter_steps")
+      if (find_quantity(result%summary, "period_cycles") > 0) trial%period = nint(scalar("period_cycles"))
 
    contains
 

@@ -36,6 +36,13 @@ def done(camroller, tmp_path_factory):
     return folder / "one_study.h5", result.stdout
 
 
+def test_turns_of_a_longer_period_are_not_compared(camroller, tmp_path):
+    """Two ways may end with different turns: their distance is no error of integration."""
+    result = study(camroller, ROOT / "decks/lash_adjuster.nml", *QUICK, "--set", "sweep.values_1=1840", folder=tmp_path)
+    assert result.returncode != 0
+    assert "no reference: the motion of the train repeats after 2 cycles only" in result.stderr
+
+
 @pytest.mark.parametrize("words", [["--quick", "--repeats", "1", "--set", "output.angle_step_deg=20"], ["--laws"]])
 def test_a_value_that_the_sweep_varies_has_a_remark(camroller, tmp_path, words):
     (tmp_path / "deck.nml").write_text(THESIS[:THESIS.index("&sweep")]
