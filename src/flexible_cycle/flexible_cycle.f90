@@ -73,7 +73,7 @@ module camroller_flexible_cycle
       integer :: cycles = 0
       !> Cycles that make a period; 0 where there is none
       integer :: period = 0
-      !> Largest part of a disturbance that a cycle was seen to leave [-]
+      !> Largest part of a disturbance that a cycle was seen to leave; a period, where it is of several cycles [-]
       real(wp) :: multiplier = 0.0_wp
       !> Difference of a period's end from its start, in the units of the scales [-]
       real(wp) :: closure = 0.0_wp
@@ -197,7 +197,7 @@ contains
       integer, intent(in) :: longest
       !> Distance from the periodic state that is near enough, in units of the scales [-]
       real(wp), intent(in) :: closure
-      !> Gets the period, where there is one, and the difference of its end from its start
+      !> Gets the period, where there is one, the difference of its end from its start, and what it leaves of a disturbance
       type(flexible_cycle_t), intent(inout) :: cycle
 
       ! Difference between two periods, over that which is near enough, above which the next is near by chance [-]
@@ -212,6 +212,7 @@ contains
             last_distance = max(maxval(abs(ends(:, n - k) - ends(:, n - 2*k))), tiny(1.0_wp))
             if (distance > closure*(1.0_wp - distance/last_distance) .or. last_distance > chance*closure) cycle
             cycle%closure = distance
+            cycle%multiplier = distance/last_distance
             cycle%period = k
             return
          end do

@@ -54,7 +54,7 @@ module camroller_camshaft_statistics
       procedure :: sample => sample_bearings
    end type bearing_samples_t
 
-   !> Distance from a stop of rows of the camshaft that show an extreme close to a kink, whose points lie wider apart [rad]
+   !> Distance from a stop of rows that show an extreme close to a kink, whose points lie wider apart [rad]
    real(wp), parameter :: near = 1.0e-3_wp
    !> Rows that are kept for the errors of extremes
    integer, parameter :: most_kept = 32
@@ -198,15 +198,16 @@ contains
       ! larger error of smallest and largest value [unit of the series]
       real(wp), allocatable :: points(:), stops(:), angles(:)
       real(wp), dimension(size(lowest)) :: values, errors
-      ! The first series of a single bearing; they are the last ones
-      integer :: single
-      integer :: i, lobe, residual, series, sense
+      ! The first series of a single bearing, which are the last ones; turns that make rows, of a flexible train
+      integer :: single, turns, i, lobe, residual, series, sense
 
       ! It is rounding, of which the rows show enough
       residual = find_quantity(list, trim(torque_series(of_residual)))
       errors = 0.0_wp
+      turns = 0
       allocate (stops(0), angles(0))
       do lobe = 1, size(statistics)
+         if (allocated(solved%cycles(lobe)%flexible)) turns = max(turns, size(solved%cycles(lobe)%flexible%turns))
          points = points_of(statistics(lobe), list)
          do i = 1, size(solved%shaft%lobes)
             ! Cams that do the same stop at the same angles
@@ -221,7 +222,7 @@ contains
       do i = 1, size(angles)
          call camshaft_row(solved, angles(i), values, error)
          if (allocated(error)) return
-         call add_sample(samples, angles(i), values, i <= size(stops) .and. .not. allocated(solved%cycles(1)%flexible))
+         call add_sample(samples, angles(i), values, i <= size(stops) .and. turns == 0)
       end do
       single = size(values) - bearing_series_count(solved%case) + 1
       do series = 1, size(values)
@@ -244,10 +245,10 @@ contains
             if (sense < 0) highest(series) = -search%value
             call keep_row(kept, solved, statistics, search%point, i, error)
             if (allocated(error)) return
-            associate (value => kept%values(series, i))
-               errors(series) = max(errors(series), search%left + abs(kept%without(series, i) - value)*merge(error_share, margin, &
-                  & allocated(solved%cycles(1)%flexible)) + abs(sense*search%value - value))
-            end associate
+            ! What the search leaves of a flexible train is unknown, and what it found may be of another turn than the last
+            errors(series) = max(errors(series), abs(kept%without(series, i) - kept%values(series, i))*merge(margin, error_share, &
+               & turns == 0) + merge(search%left, 0.0_wp, turns == 0) + merge(abs(sense*search%value - kept%values(series, i)), &
+               & 0.0_wp, turns <= 1))
          end do
       end do
       call judge_camshaft(list, lowest, highest, errors, statistics)
@@ -345,8 +346,7 @@ contains
 
       ! Least distance over that of the nearer load beyond which the two tell as much [-]
       real(wp), parameter :: close = 0.9_wp
-      ! Way from the one to the other [N], its length squared [N^2]
-      real(wp) :: way(2), length
+      real(wp) :: way(2), length ! Way from the one to the other [N], its length squared [N^2]
 
       way = loads(:, 2) - loads(:, 1)
       length = dot_product(way, way)

@@ -37,8 +37,6 @@ module camroller_flexible_report
    integer, parameter, public :: most_turns = max(longest_period, statistical_turns)
    !> Points of the rule for a step
    integer, parameter :: points = 3
-   !> Turns whose points are kept for the search of extremes
-   integer, parameter :: most_searched = 8
 
    !> Means over all turns
    type, extends(shares_t) :: flexible_means_t
@@ -56,6 +54,11 @@ module camroller_flexible_report
       real(wp) :: largest_sliding = 0.0_wp
       !> Oil that enters the adjuster's chamber and that leaves it, at ambient density [m^3/s]
       real(wp) :: oil(2) = 0.0_wp
+      !> Of turns before the last one, for each series the row of its smallest and of its largest value, in the last column that of
+      !> the smallest load with the valve off its seat, shape (series, column) [unit of the series]
+      real(wp), allocatable :: held(:, :)
+      !> Their cam angles [rad], the values of the extremes, those of largest ones with the other sign [unit of the series]
+      real(wp), allocatable :: held_angle(:), held_value(:)
    end type flexible_means_t
 
 contains
@@ -83,9 +86,10 @@ contains
       call start_means(means, series_count, first_torque)
       do turn = 1, size(solution%turns)
          call add_turn(case, model, solution%turns(turn), solution%cycle%resolution, 1.0_wp/size(solution%turns), &
-            & turn > size(solution%turns) - most_searched, state, means, error)
+            & turn == size(solution%turns), .true., state, means, error)
          if (allocated(error)) return
       end do
+      call add_held(means)
       call series_values(case, model, state, means%torques, values)
       means%mean(first_torque:) = values(first_torque:)
    end subroutine integrate_turns
@@ -98,9 +102,51 @@ contains
       integer, intent(in) :: series_count, first_torque
 
       allocate (means%mean(series_count), means%size(series_count), source=0.0_wp)
+      allocate (means%held(series_count, 2*series_count + 1), means%held_angle(2*series_count + 1), source=0.0_wp)
+      allocate (means%held_value(2*series_count + 1), source=huge(1.0_wp))
       call start_samples(means%rows, first_torque - 1)
       call start_samples(means%torque_rows, series_count - first_torque + 1)
    end subroutine start_means
+
+   !> Hold the row of a turn before the last one where it has an extreme: of these turns nothing is searched between points.
+   pure subroutine hold_row(means, angle, values, event_load)
+      !> The means
+      type(flexible_means_t), intent(inout) :: means
+      !> Cam angle [rad]
+      real(wp), intent(in) :: angle
+      !> The row [unit of the series]
+      real(wp), intent(in) :: values(:)
+      !> Contact load; huge with the valve on its seat [N]
+      real(wp), intent(in) :: event_load
+
+      integer :: i
+
+      associate (ends => [values, -values, event_load])
+         do i = 1, size(ends)
+            if (ends(i) >= means%held_value(i)) cycle
+            means%held_value(i) = ends(i)
+            means%held_angle(i) = angle
+            means%held(:, i) = values
+         end do
+      end associate
+   end subroutine hold_row
+
+   !> Add the rows held to those of the last turn, each once.
+   pure subroutine add_held(means)
+      !> The means
+      type(flexible_means_t), intent(inout) :: means
+
+      integer :: i, k, followers
+
+      followers = size(means%rows%values, 1)
+      do i = 1, size(means%held_value)
+         if (means%held_value(i) >= huge(1.0_wp)) cycle
+         ! Turns may have points at the same angle
+         if (any([(all(abs(means%held(:, k) - means%held(:, i)) <= 0.0_wp), k=1, i - 1)])) cycle
+         call add_sample(means%rows, means%held_angle(i), means%held(:followers, i), .false.)
+         call add_sample(means%torque_rows, means%held_angle(i), means%held(followers + 1:, i), .false.)
+      end do
+   end subroutine add_held
 
    !> Errors of the means of a turn: from the last turn and the one with a finer tolerance, each with points of its own. They are
    !> relative to the mean magnitude of their series, those of torques to the mean of all losses, those of powers of dampers to it
@@ -134,10 +180,10 @@ contains
 
       missing_oil = 0.0_wp
       call start_means(means, size(series), first_torque)
-      call add_turn(case, model, solution%cycle%trajectory, solution%cycle%resolution, 1.0_wp, .false., state, means, error)
+      call add_turn(case, model, solution%cycle%trajectory, solution%cycle%resolution, 1.0_wp, .true., .false., state, means, error)
       if (allocated(error)) return
       call start_means(finer, size(series), first_torque)
-      call add_turn(case, model, solution%finer, solution%finer_resolution, 1.0_wp, .false., state, finer, error)
+      call add_turn(case, model, solution%finer, solution%finer_resolution, 1.0_wp, .true., .false., state, finer, error)
       if (allocated(error)) return
       losses = sum(means%torques, mask=is_loss)
       first_power = find_quantity(series, trim(damper_series(1)))
@@ -179,7 +225,7 @@ contains
    end subroutine compare_turns
 
    !> Take a turn into the means.
-   subroutine add_turn(case, model, path, resolution, share, is_kept, state, means, error)
+   subroutine add_turn(case, model, path, resolution, share, is_last, has_extremes, state, means, error)
       !> The case
       type(case_t), intent(in) :: case
       !> The model of the lobe
@@ -190,8 +236,8 @@ contains
       type(resolution_t), intent(in) :: resolution
       !> Its share of all turns [-]
       real(wp), intent(in) :: share
-      !> Are its points kept for the search of extremes?
-      logical, intent(in) :: is_kept
+      !> Is it the last one, and are extremes looked for?
+      logical, intent(in) :: is_last, has_extremes
       !> State at the last point
       type(state_t), intent(out) :: state
       !> The means
@@ -229,9 +275,12 @@ contains
                   means%oil = means%oil + weight*[train%check_flow, train%leak_flow]/relative_volume(given, train%chamber_pressure)
                end associate
             end if
-            if (is_kept) then
+            if (has_extremes .and. is_last) then
                call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
                call add_sample(means%torque_rows, angle, values(size(means%rows%values, 1) + 1:), .false.)
+            else if (has_extremes) then
+               call hold_row(means, angle, values, merge(state%contact%load, huge(1.0_wp), state%position%lift > 0.0_wp .and. &
+                  & state%position%lift >= model%train%seat_lift))
             end if
             call add_shares(means, model, state, angle, state%position%lift > 0.0_wp, weight)
          end do
@@ -268,7 +317,8 @@ contains
       end do
       call add("period_cycles", "1", "cycles after which the motion repeats; 0 where it is not periodic", &
          & real(solution%cycle%period, wp))
-      call add("cycle_multiplier", "1", "largest fraction of a disturbance that remained after a cycle", solution%cycle%multiplier)
+      call add("cycle_multiplier", "1", "largest fraction of a disturbance that remained after a cycle, or a period of several", &
+         & solution%cycle%multiplier)
       call add("summary_cycles", "1", "cycles over which these values are taken", real(size(solution%turns), wp))
       if (allocated(model%flexible%adjuster)) then
          call add("plunger_spring_force", "N", "force of the plunger's spring in its middle position", &
@@ -340,7 +390,7 @@ contains
          & "valve at full lift, with stiffness of usual size where there is no &dynamics", "dynamics", &
          & outlook%frequencies(1)/two_pi, scope)
       call append_quantity(list, prefix//"load_factor", "1", "estimate: largest contact load of a train that vibrates at that "// &
-         & "frequency over the largest of a rigid one", "dynamics", outlook%load_factor, scope)
+         & "frequency over the largest of a rigid one, without impacts that take up lash", "dynamics", outlook%load_factor, scope)
       do n = 1, size(outlook%surge)
          call append_quantity(list, prefix//"surge_estimate_"//integer_text(n), "N", "estimate: largest force of spring mode "// &
             & integer_text(n)//" with the lift of a rigid train", "dynamics", outlook%surge(n), scope)

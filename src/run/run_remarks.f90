@@ -295,7 +295,7 @@ contains
       if (estimates(2) > accuracy) call add_remark(result%remarks, missed_means, &
          & "the means did not reach the accuracy asked for; the largest estimated error, of mean_"//trim(result%worst_mean)// &
          & ", is "//number_text(estimates(2), 2), estimates(2))
-      if (estimates(3) > accuracy .and. lacks_period(result)) then
+      if (lacks_period(result)) then
          call say_no_period(result)
       else if (estimates(3) > accuracy) then
          call add_remark(result%remarks, missed_extremes, "the extremes did not reach the accuracy asked for; the largest "// &
@@ -354,7 +354,7 @@ contains
          call say_far("the error", estimates(1))
       end if
       if (estimates(2) > numerics%tolerance*far_beyond) call say_far("the error of mean_"//trim(result%worst_mean), estimates(2))
-      if (estimates(3) > numerics%tolerance*far_beyond .and. lacks_period(result)) then
+      if (lacks_period(result)) then
          call say_no_period(result)
       else if (estimates(3) > numerics%tolerance*far_beyond) then
          call say_far("the error of the extremes of "//trim(result%worst_extreme), estimates(3))

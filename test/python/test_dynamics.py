@@ -330,6 +330,31 @@ def test_periodic_states_agree_with_an_independent_integration(row, tmp_path, ca
     assert not wrong
 
 
+@pytest.mark.parametrize("deck, speed, period, change", [(ADJUSTER, 1840, 2, ""), (DECK, 900, 2, "dynamics.lash_mm=0.2"),
+                                                         (ADJUSTER, 2200, 0, "")], ids=["adjuster", "lash", "none"])
+def test_extremes_of_turns_that_differ_have_the_error_of_a_turn(deck, speed, period, change, tmp_path, camroller):
+    """And a period of several turns leaves as much of a disturbance as it does, not what a turn leaves of the alternation."""
+    gas = "" if deck == ADJUSTER else f"""\n&gas_force\n   table = '{ROOT}/decks/tables/cylinder_pressure.txt'
+   valve_diameter_mm = 30\n   table_nose_angle_deg = 180\n/\n"""
+    (tmp_path / "deck.nml").write_text(deck.read_text() + gas)
+    summary, warnings = run(camroller, tmp_path / "deck.nml", tmp_path / "run.h5", f"sweep.values_1={speed}",
+                            "numerics.tolerance=1e-5", *([change] if change else []))
+    assert summary["period_cycles"] == period
+    # 20 and more of the friction torque's range, where the search took the points of several turns for those of one
+    assert summary["estimated_error_of_extremes"] < 1e-2 and "error of the extremes" not in warnings
+    assert summary["cycle_multiplier"] < 0.9 or period == 0
+    assert ("have no error that could be estimated" in warnings) == (period == 0)
+
+
+def test_extremes_are_those_of_all_turns(tmp_path, camroller):
+    """The largest of 40 turns without a period is not among the last 8."""
+    summary, _ = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=4500", "numerics.tolerance=1e-3")
+    with h5py.File(tmp_path / "run.h5") as file:
+        loads = file["turns/dynamic_load_max"][0]
+    assert loads.size == 40 and loads.argmax() < 32
+    assert summary["max_contact_load"] == pytest.approx(loads.max(), rel=1e-3)
+
+
 def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, camroller):
     """The summary is their mean, spread and range; a case that repeats each turn has none, one without a period has 40."""
     done = subprocess.run([camroller, "sweep", ADJUSTER, "-o", tmp_path / "turns.h5", "--quiet", "--set", "sweep.values_1=300,1900,2200",
