@@ -129,12 +129,10 @@ contains
       !> Convergence error where a turn cannot be integrated
       type(error_t), allocatable, intent(out) :: error
 
-      ! Ends of the last turns in units of the scales, the newest last [-]
-      real(wp) :: ends(size(state), 0:2*longest_period)
+      ! Ends of the last turns in units of the scales, the newest last; distance of end and start, the same of the turn before [-]
+      real(wp) :: ends(size(state), 0:2*longest_period), distance, last_distance
       ! Start of a turn, its end less its start, where the periodic state should be, in units of the scales [-]
       real(wp), dimension(size(state)) :: start, residual, aim
-      ! Distance of end and start, the same of the turn before [-]
-      real(wp) :: distance, last_distance
       type(leak_t) :: leak
       integer :: turns, plain
       logical :: is_scaled, alternates, has_jumped
@@ -175,6 +173,7 @@ contains
             cycle%history%kept = 0
             plain = 0
          else if (distance > slow*last_distance .and. cycle%history%kept >= least_kept .and. .not. alternates) then
+            call put_on_stop(turn, aim)
             if (is_possible(turn, aim)) then
                state = aim*turn%scales
                plain = 0
@@ -268,9 +267,9 @@ contains
          if (leak%turns < leaking_turns) return
          change = sum(leak%changes, 2)/leaking_turns
          if (change(at_plunger) > -steady_fall*norm2(leak%changes(at_plunger, :))/sqrt(real(leaking_turns, wp))) return
-         aim = state/turn%scales + leak%jump*change
-         aim(at_plunger) = max(aim(at_plunger), flexible%adjuster%given%lowest/turn%scales(at_plunger))
       end associate
+      aim = state/turn%scales + leak%jump*change
+      call put_on_stop(turn, aim)
       leak%turns = 0
       if (.not. is_possible(turn, aim)) return
       state = aim*turn%scales
@@ -396,6 +395,24 @@ contains
          end do
       end associate
    end subroutine extrapolate
+
+   !> Put a plunger that a mixture of states has far beyond a stop on it: the stop would throw it back with more than all forces
+   !> of a train.
+   pure subroutine put_on_stop(turn, aim)
+      !> What integrates
+      type(turn_t), intent(in) :: turn
+      !> The state at the start of a turn, in units of the scales [-]
+      real(wp), intent(inout) :: aim(:)
+
+      ! Way beyond a stop that is far, over the plunger's travel [-]
+      real(wp), parameter :: far = 0.05_wp
+
+      if (.not. allocated(turn%problem%model%flexible%adjuster)) return
+      associate (given => turn%problem%model%flexible%adjuster%given, place => aim(at_plunger), scale => turn%scales(at_plunger))
+         if (scale*place < given%lowest - far*(given%highest - given%lowest)) place = given%lowest/scale
+         if (scale*place > given%highest + far*(given%highest - given%lowest)) place = given%highest/scale
+      end associate
+   end subroutine put_on_stop
 
    !> Can a train be in a state? A mixture of states need not be one.
    function is_possible(turn, aim) result(verdict)
