@@ -10,7 +10,8 @@ module camroller_flexible_measures
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_trajectory, only : trajectory_t, interpolate_state
-   use camroller_lash_adjuster, only : opening_pressure
+   use camroller_lash_adjuster, only : lash_adjuster_t, opening_pressure
+   use camroller_lift, only : is_at_rest, is_tabulated
    use camroller_quadrature, only : gauss_legendre
    use camroller_flexible_geometry, only : dot
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_lift, &
@@ -106,9 +107,11 @@ module camroller_flexible_measures
    !> How many there are without an adjuster, and with one
    integer, parameter :: measure_count(2) = [residual_work, size(measures)]
    !> Part of the largest lift above which a load counts as one of the event [-]
-   real(wp), parameter :: event_part = 0.25_wp
+   real(wp), parameter, public :: event_part = 0.25_wp
    !> Part of the largest lift below which a table's noise may be all that rises [-]
    real(wp), parameter :: noise_part = 1.0e-3_wp
+   !> Part of a plunger's travel above its lower stop in which it counts as on it: it may tremble and bounce there [-]
+   real(wp), parameter :: low_part = 0.05_wp
    !> Points of the rule for a step
    integer, parameter :: points = 3
 
@@ -236,12 +239,13 @@ contains
          values(largest_load) = now%contact%load
          values(largest_load_angle) = angle
       end if
-      call add_lift(state(at_lift), position%lift, noise_part*top, now%contact%load, weight, values)
+      call add_lift(state(at_lift), position%lift, is_at_rest(model%lift_law, angle) .or. (is_tabulated(model%lift_law) &
+         & .and. position%lift <= noise_part*top), now%contact%load, weight, values)
       sample = sample_t(angle, position%lift - event_part*top, now%contact%load, pivot_force(model, state, now), 0.0_wp, &
          & position%lift_slope > 0.0_wp .and. position%lift > noise_part*top)
       if (allocated(model%flexible%adjuster)) then
          sample%shut = now%pressure - opening_pressure(model%flexible%adjuster)
-         sample%is_low = now%pivot <= model%flexible%adjuster%given%lowest
+         sample%is_low = is_on_stop(model%flexible%adjuster%given, now%pivot)
       end if
       call add_interval(last, sample, values)
       least = least_joint_force(last, sample)
@@ -266,10 +270,23 @@ contains
       values(gallery_torque) = values(gallery_torque) + weight*powers%gallery/model%speed
    end subroutine add_point
 
+   !> Is a plunger on its lower stop?
+   pure function is_on_stop(given, place) result(is_low)
+      !> The adjuster
+      type(lash_adjuster_t), intent(in) :: given
+      !> Place of the plunger [m]
+      real(wp), intent(in) :: place
+      logical :: is_low
+
+      is_low = place <= given%lowest + low_part*(given%highest - given%lowest)
+   end function is_on_stop
+
    !> Take a lift, and the load at it, into the measures.
-   pure subroutine add_lift(lift, rigid, noise, load, weight, values)
-      !> Lift of the valve, that of a rigid train, and what of the latter may be noise of a table [m]
-      real(wp), intent(in) :: lift, rigid, noise
+   pure subroutine add_lift(lift, rigid, is_closed, load, weight, values)
+      !> Lift of the valve, and that of a rigid train [m]
+      real(wp), intent(in) :: lift, rigid
+      !> Is the latter at rest, or what of it may be noise of a table?
+      logical, intent(in) :: is_closed
       !> Contact load [N]
       real(wp), intent(in) :: load
       !> Part of the turn that it stands for [-]
@@ -278,7 +295,7 @@ contains
       real(wp), intent(inout) :: values(:)
 
       if (rigid > 0.0_wp .and. .not. load > 0.0_wp) values(float_share) = values(float_share) + weight
-      if (.not. rigid > noise) values(closed_load) = max(values(closed_load), load)
+      if (is_closed) values(closed_load) = max(values(closed_load), load)
       values(smallest_lift) = min(values(smallest_lift), lift)
       if (lift <= 0.0_wp) values(seated_share) = values(seated_share) + weight
       values(least_lift_error) = min(values(least_lift_error), lift - rigid)

@@ -4,18 +4,21 @@
 module camroller_train_remarks
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t, kind_domain, raise
-   use camroller_flexible_measures, only : bounce_height, bounces, closed_load, coil_compression, coil_ratio, event_check_share, &
-      & highest_plunger, largest_lift, largest_load, losses_of_contact, lowest_plunger, seating_speed, smallest_lift, &
-      & smallest_pivot_force, tension_share
+   use camroller_flexible_measures, only : bounce_height, bounces, check_share, closed_load, coil_compression, coil_ratio, &
+      & event_check_share, event_part, highest_plunger, largest_lift, largest_load, losses_of_contact, &
+      & lowest_plunger, seating_speed, smallest_lift, smallest_pivot_force, tension_share
    use camroller_flexible_solution, only : flexible_solution_t
-   use camroller_flexible_train, only : at_lift
+   use camroller_flexible_train, only : at_lift, at_plunger, at_pressure
    use camroller_gas, only : gas_force
+   use camroller_kinematics, only : position_t
    use camroller_kinds, only : two_pi, wp
-   use camroller_model, only : model_t
+   use camroller_lash_adjuster, only : ambient_pressure, opening_pressure
+   use camroller_model, only : evaluate_geometry, model_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_ode_problem, only : counters_t
-   use camroller_remarks, only : add_remark, bouncing_valve, long_period, lost_contact, missing_lift, no_period, open_pivot, &
-      & open_valve, pressed_seat, relieved_spring, remark_t, rising_plunger, sinking_plunger, stopped_plunger
+   use camroller_remarks, only : add_remark, bouncing_valve, empty_chamber, long_period, lost_contact, missing_lift, &
+      & no_period, open_pivot, open_valve, pressed_seat, relieved_spring, remark_t, rising_plunger, shut_valve, &
+      & sinking_plunger, stopped_plunger
    use camroller_train_outlook, only : gas_share
    implicit none
    private
@@ -49,6 +52,7 @@ contains
             call raise(error, kind_domain, text//" (contact_policy = 'stop')")
             return
          end if
+         if (model%flexible%lash > 0.0_wp) text = text//"; load_factor leaves out the impact that takes up the lash"
          call add_remark(remarks, lost_contact, text, 100.0_wp*lost_share)
       end if
       if (solution%lowest(smallest_pivot_force) < 0.0_wp) then
@@ -64,7 +68,10 @@ contains
             & solution%highest(seating_speed))
       end if
       call judge_seat(model, solution, speed, remarks)
-      if (allocated(model%flexible%adjuster)) call judge_plunger(model, solution, speed, remarks)
+      if (allocated(model%flexible%adjuster)) then
+         call judge_plunger(model, solution, speed, remarks)
+         call judge_oil(model, solution, speed, remarks)
+      end if
       if (solution%highest(coil_ratio) > 1.0_wp) then
          call add_remark(remarks, relieved_spring, "waves in the spring may take all compression from a part of it: "// &
             & "they move coils by up to "//number_text(solution%highest(coil_ratio), 3)//" times what the spring is "// &
@@ -88,21 +95,36 @@ contains
 
       ! Part of the largest lift that may be missing [-]: compliance, lash and leak together take less
       real(wp), parameter :: most_missing = 0.1_wp
-      ! Largest lift of a rigid train, and of the turn that has least [m]
-      real(wp) :: wanted, reached
-      integer :: turn
+      ! Part of what is missing from which on one cause is named for it [-]
+      real(wp), parameter :: most_of_it = 0.5_wp
+      ! Largest lift of a rigid train, and of the turn that has least, what is missing, way of the plunger below its rest there [m]
+      real(wp) :: wanted, reached, missing, sink
+      character(len=:), allocatable :: cause
+      integer :: turn, place
 
       wanted = largest_lift(model)
       reached = wanted
+      sink = 0.0_wp
       do turn = 1, size(solution%turns)
          associate (trajectory => solution%turns(turn))
-            reached = min(reached, maxval(trajectory%state(at_lift, :trajectory%count)))
+            place = maxloc(trajectory%state(at_lift, :trajectory%count), 1)
+            if (trajectory%state(at_lift, place) >= reached) cycle
+            reached = trajectory%state(at_lift, place)
+            if (allocated(model%flexible%adjuster)) sink = model%flexible%pivot_place - trajectory%state(at_plunger, place)
          end associate
       end do
+      missing = wanted - max(0.0_wp, reached)
       if (reached >= (1.0_wp - most_missing)*wanted) return
+      if (model%flexible%lash > most_of_it*missing) then
+         cause = "dynamics.lash_mm = "//number_text(1.0e3_wp*model%flexible%lash, 3)//" takes it"
+      else if (sink > most_of_it*missing) then
+         cause = "the plunger of the lash adjuster, which has sunk by "//number_text(1.0e3_wp*sink, 3)//" mm there, takes it"
+      else
+         cause = "the finger yields by what is missing: are the stiffnesses of &dynamics, in N/m, right?"
+      end if
       call add_remark(remarks, missing_lift, "the valve opens by "//number_text(1.0e3_wp*max(0.0_wp, reached), 3)//" mm at "// &
-         & speed//", where its cam would lift it by "//number_text(1.0e3_wp*wanted, 3)//" mm; the finger yields by what is "// &
-         & "missing: are the stiffnesses of &dynamics, in N/m, and lash and adjuster right?", 100.0_wp*(1.0_wp - reached/wanted))
+         & speed//", where its cam would lift it by "//number_text(1.0e3_wp*wanted, 3)//" mm; "//cause, &
+         & 100.0_wp*(1.0_wp - reached/wanted))
    end subroutine judge_lift
 
    !> Remarks on the seat: the valve stays off it, or gas presses the valve into it.
@@ -155,16 +177,18 @@ contains
       ! Way below its rest from which on it sinks far: as high as the closing ramps of cams for adjusters, beyond which the valve
       ! meets its seat at the speed of the flank [m]
       real(wp), parameter :: far = 1.0e-4_wp
-      ! Way below its rest [m]
-      real(wp) :: sink
+      ! Way below its rest, largest height above it in the event [m]
+      real(wp) :: sink, height
 
+      height = event_height(model, solution)
       associate (given => model%flexible%adjuster%given, highest => solution%highest(highest_plunger), &
          & lowest => solution%lowest(lowest_plunger))
          if (solution%highest(event_check_share) > 0.0_wp) then
             call add_remark(remarks, rising_plunger, "the lash adjuster pumps up: its check valve opens for "// &
                & number_text(100.0_wp*solution%mean(event_check_share), 3)//" % of the cycle while the valve is open, and the "// &
-               & "plunger stands up to "//number_text(1.0e3_wp*(highest - model%flexible%pivot_place), 3)//" mm above its "// &
-               & "rest, at "//speed, 100.0_wp*solution%mean(event_check_share))
+               & "plunger stands up to "//number_text(1.0e3_wp*abs(height), 3)//" mm "// &
+               & trim(merge("above", "below", height >= 0.0_wp))//" its rest then, at "//speed, &
+               & 100.0_wp*solution%mean(event_check_share))
          end if
          if (highest > given%highest) call add_remark(remarks, stopped_plunger, "the plunger of the lash adjuster reaches its "// &
             & "upper stop at "//speed//": it rises no further", highest - given%highest)
@@ -176,6 +200,68 @@ contains
             & "loses lift and meets its seat early", sink)
       end associate
    end subroutine judge_plunger
+
+   !> Largest height of the plunger above its rest with the valve in the part of its lift that counts as the event.
+   function event_height(model, solution) result(height)
+      !> Model of the lobe, with an adjuster
+      type(model_t), intent(in) :: model
+      !> Solution of its train
+      type(flexible_solution_t), intent(in) :: solution
+      !> The height [m]
+      real(wp) :: height
+
+      type(position_t) :: position
+      real(wp) :: least ! Lift of the event [m]
+      integer :: turn, i, status
+
+      height = -huge(1.0_wp)
+      least = event_part*largest_lift(model)
+      do turn = 1, size(solution%turns)
+         associate (trajectory => solution%turns(turn))
+            do i = 1, trajectory%count
+               if (trajectory%state(at_plunger, i) - model%flexible%pivot_place <= height) cycle
+               call evaluate_geometry(model, trajectory%time(i), position, status)
+               if (status == 0 .and. position%lift >= least) height = trajectory%state(at_plunger, i) - model%flexible%pivot_place
+            end do
+         end associate
+      end do
+   end function event_height
+
+   !> Remarks on the oil of a lash adjuster: a check valve that stays shut, a chamber that is as good as empty.
+   subroutine judge_oil(model, solution, speed, remarks)
+      !> Model of the lobe, with an adjuster
+      type(model_t), intent(in) :: model
+      !> Solution of its train
+      type(flexible_solution_t), intent(in) :: solution
+      !> Its speed in words
+      character(len=*), intent(in) :: speed
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Absolute pressure over that of the surroundings below which the chamber is as good as empty [-]
+      real(wp), parameter :: vacuum = 0.2_wp
+      character(len=:), allocatable :: text
+      real(wp) :: lowest ! Gauge pressure [Pa]
+      integer :: turn
+
+      if (.not. solution%highest(check_share) > 0.0_wp) then
+         associate (opens => opening_pressure(model%flexible%adjuster))
+            text = "the check valve of the lash adjuster opens in no cycle at "//speed
+            if (opens <= -ambient_pressure) text = "the check valve of the lash adjuster can never open: lash_adjuster.supply_"// &
+               & "pressure_MPa less crack_pressure_kPa is "//number_text(1.0e-5_wp*opens, 3)//" bar, below a vacuum"
+            call add_remark(remarks, shut_valve, text//"; what leaks along the plunger comes back along it alone, or not at all")
+         end associate
+      end if
+      lowest = huge(1.0_wp)
+      do turn = 1, size(solution%turns)
+         associate (trajectory => solution%turns(turn))
+            lowest = min(lowest, minval(trajectory%state(at_pressure, :trajectory%count)))
+         end associate
+      end do
+      if (lowest < (vacuum - 1.0_wp)*ambient_pressure) call add_remark(remarks, empty_chamber, "the chamber of the lash "// &
+         & "adjuster is nearly at a vacuum, down to "//number_text(1.0e-2_wp*(ambient_pressure + lowest), 2)//" mbar, at "// &
+         & speed//": its oil gives off air, which is computed by the air's compression alone", -lowest)
+   end subroutine judge_oil
 
    !> How often something happens, in words.
    pure function times_text(count) result(text)
@@ -201,8 +287,10 @@ contains
 
       character(len=:), allocatable :: text
       type(counters_t) :: counters
+      real(wp) :: partings ! In a cycle [-]
 
       if (solution%cycle%period == 1) return
+      partings = solution%mean(losses_of_contact) + solution%mean(bounces)
       counters = solution%cycle%counters
       if (solution%cycle%period > 1) then
          call add_remark(remarks, long_period, "the motion of the train repeats after "//integer_text(solution%cycle%period)// &
@@ -211,10 +299,15 @@ contains
       else
          text = "the motion of the train did not become periodic within "//integer_text(solution%cycle%cycles)//" cycles at "// &
             & speed
-         if (solution%is_cut_short) text = text//", and no more are tried: in each cam and roller, or valve and seat, part "// &
-            & number_text(solution%mean(losses_of_contact) + solution%mean(bounces), 2)//" times, and a cycle takes "// &
-            & integer_text((counters%accepted + counters%rejected)/(solution%cycle%cycles + size(solution%turns)))// &
-            & " steps, where usual ones take some hundreds to 3000"
+         if (solution%is_cut_short) then
+            text = text//", and no more are tried: "
+            ! Fewer explain no step
+            if (partings >= 1.0_wp) text = text//"in each cam and roller, or valve and seat, part "//number_text(partings, 2)// &
+               & " times, and "
+            text = text//"a cycle takes "// &
+               & integer_text((counters%accepted + counters%rejected)/(solution%cycle%cycles + size(solution%turns)))// &
+               & " steps, where usual ones take some hundreds to 3000"
+         end if
          text = text//": the summary covers "//integer_text(size(solution%turns))//" further cycles, and the series show the "// &
             & "last of them as an example"
          if (solution%trend%approached > 0) then

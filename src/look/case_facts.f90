@@ -119,7 +119,7 @@ contains
          return
       end if
       do lobe = 1, size(models)
-         call describe_results(result, models(lobe)%crank_turns, trim(merge("lobe_2_", "       ", lobe == 2)), &
+         call describe_results(result, models(lobe), trim(merge("lobe_2_", "       ", lobe == 2)), &
             & trim(merge("second lobe:", "lobe:       ", lobe == 2)), text)
       end do
    end subroutine describe_case
@@ -240,11 +240,11 @@ contains
    end subroutine describe_cam
 
    !> What one run says of a lobe.
-   subroutine describe_results(result, turns, prefix, name, text)
+   subroutine describe_results(result, model, prefix, name, text)
       !> Result of the case
       type(result_t), intent(in) :: result
-      !> Turns of the crankshaft in one of the camshaft, 0 without an engine [-]
-      real(wp), intent(in) :: turns
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
       !> Beginning of the names of its scalars
       character(len=*), intent(in) :: prefix
       !> What the lobe is called
@@ -258,8 +258,10 @@ contains
       real(wp) :: speed_factor
       character(len=:), allocatable :: unit
 
-      speed_factor = per_minute*merge(turns, 1.0_wp, turns > 0.0_wp)
-      unit = " rev/min of the "//trim(merge("crankshaft", "camshaft  ", turns > 0.0_wp))
+      associate (turns => model%crank_turns)
+         speed_factor = per_minute*merge(turns, 1.0_wp, turns > 0.0_wp)
+         unit = " rev/min of the "//trim(merge("crankshaft", "camshaft  ", turns > 0.0_wp))
+      end associate
       call add_value(name//" contact load up to ", "max_contact_load", 1.0_wp)
       call add_value(" N, pressure up to ", "max_hertz_pressure", 1.0e-9_wp)
       call add_value(" GPa, film ratio ", "min_film_ratio", 1.0_wp)
@@ -278,6 +280,9 @@ contains
       call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", speed_factor)
       call add_value(unit//"; natural frequency of the train ", "train_frequency", 1.0_wp)
       call add_value(" Hz, load of a train that vibrates over a rigid one's ", "load_factor", 1.0_wp)
+      if (allocated(model%flexible)) then
+         if (model%flexible%lash > 0.0_wp) text = text//" without the impact that takes up the lash"
+      end if
       if (find_quantity(result%summary, prefix//"surge_estimate_1") > 0) then
          call add_value(", surge of the spring in its first mode ", "surge_estimate_1", 1.0_wp)
          text = text//" N"

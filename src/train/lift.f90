@@ -15,7 +15,7 @@ module camroller_lift
    private
 
    public :: lift_t, lift_law_t, lift_law_names
-   public :: new_lift_law, evaluate_lift, is_at_rest, stop_angles, largest_exponent
+   public :: new_lift_law, evaluate_lift, is_at_rest, is_tabulated, stop_angles, largest_exponent
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
@@ -180,6 +180,15 @@ contains
          at_rest = angle - two_pi*real(floor((angle - law%first)/two_pi), wp) >= law%last
       end if
    end function is_at_rest
+
+   !> Does the lift come from a table, so that noise may be all of it where it is small?
+   pure function is_tabulated(law) result(from_table)
+      !> The law
+      type(lift_law_t), intent(in) :: law
+      logical :: from_table
+
+      from_table = law%law == law_table
+   end function is_tabulated
 
    !> Angles where a derivative of the lift up to the third jumps: ends of the event, and the nose where its halves
    !> differ.

@@ -114,7 +114,7 @@ def test_joint_tension_and_overspeed_give_remarks(tmp_path, camroller):
 def test_a_valve_that_its_cam_hardly_lifts_has_a_remark(tmp_path, camroller):
     """A finger's stiffness in N/mm takes all of the lift; a tenth of the usual one takes less than a tenth."""
     _, warnings = run(camroller, DECK, tmp_path / "soft.h5", "sweep.values_1=900", "dynamics.finger_stiffness_N_m=5e4")
-    assert "the valve opens by 0 mm at 900 rev/min, where its cam would lift it by 9.5 mm" in warnings
+    assert "the valve opens by 0 mm at 900 rev/min, where its cam would lift it by 9.5 mm; the finger yields by what is" in warnings
     _, warnings = run(camroller, DECK, tmp_path / "stiff.h5", "sweep.values_1=900", "dynamics.finger_stiffness_N_m=5e6")
     assert "the valve opens by" not in warnings
 
@@ -208,6 +208,55 @@ def test_an_adjuster_that_sinks_does_not_pump_up(tmp_path, camroller):
     assert re.search(r"sinks by 1\.5\d* mm below its rest", warnings) and "pumps up" not in warnings
     _, usual = run(camroller, ADJUSTER, tmp_path / "usual.h5")
     assert "sinks" not in usual
+
+
+def test_a_plunger_that_trembles_on_its_lower_stop_does_not_pump_up(tmp_path, camroller):
+    """It bounces off the stop by some micrometres, and the oil that enters is what it had lost. So much lift does it take."""
+    for gap in (60, 80):
+        summary, warnings = run(camroller, ADJUSTER, tmp_path / "run.h5", "sweep.values_1=900", f"lash_adjuster.gap_um={gap}")
+        assert summary["check_valve_share"] > 0 and summary["pump_up_share"] == 0 and "pumps up" not in warnings
+        assert re.search(r"lift it by 9\.5 mm; the plunger of the lash adjuster, which has sunk by 1\.5 mm there, takes it", warnings)
+
+
+def test_the_height_of_a_pumped_up_adjuster_is_that_of_the_event(tmp_path, camroller):
+    """Through a wide gap the plunger sinks before the check valve opens in the event, and on the base circle it rises above its rest."""
+    summary, warnings = run(camroller, ADJUSTER, tmp_path / "run.h5", "sweep.values_1=2400", "lash_adjuster.gap_um=40")
+    told = re.search(r"the plunger stands up to ([\d.]+) mm below its rest then", warnings)
+    assert summary["plunger_highest"] > 5e-5 and float(told[1]) == pytest.approx(0.187, rel=0.05)
+
+
+def test_a_plunger_starts_no_turn_far_beyond_its_stop(tmp_path, camroller):
+    """Extrapolation from turns in which it climbs leads past the upper stop, 1 mm above the middle of its travel."""
+    run(camroller, ADJUSTER, tmp_path / "run.h5", "sweep.values_1=2350", "numerics.tolerance=1e-3")
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert file["turns/plunger_highest"][0].max() < 1.1e-3
+
+
+def test_a_check_valve_that_cannot_open_and_an_empty_chamber_have_remarks(tmp_path, camroller):
+    """Steps are many there, and contacts hardly part: they are not the reason."""
+    _, warnings = run(camroller, ADJUSTER, tmp_path / "run.h5", "numerics.tolerance=1e-5", "lash_adjuster.supply_pressure_MPa=0.02",
+                      "lash_adjuster.crack_pressure_kPa=130")
+    assert "can never open: lash_adjuster.supply_pressure_MPa less crack_pressure_kPa is -1.1 bar, below a vacuum" in warnings
+    assert re.search(r"the chamber of the lash adjuster is nearly at a vacuum, down to 1\d mbar, at 300 rev/min", warnings)
+    assert re.search(r"and no more are tried: a cycle takes \d+ steps", warnings)
+    _, warnings = run(camroller, ADJUSTER, tmp_path / "usual.h5")
+    assert "check valve" not in warnings and "vacuum" not in warnings
+
+
+def test_lash_takes_lift_and_its_impact_is_in_no_estimate(tmp_path, camroller):
+    _, warnings = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=900", "dynamics.lash_mm=1", "numerics.tolerance=1e-3")
+    assert re.search(r"lift it by 9\.5 mm; dynamics\.lash_mm = 1 takes it", warnings) and "the finger yields" not in warnings
+    assert "load_factor leaves out the impact that takes up the lash" in warnings
+    for change, there in (("1", True), ("0", False)):
+        done = subprocess.run([camroller, "check", DECK, "--point", "speed_rpm=900", "--set", f"dynamics.lash_mm={change}"],
+                              capture_output=True, text=True, check=True)
+        assert ("over a rigid one's 1 without the impact that takes up the lash" in done.stdout) == there
+
+
+def test_load_of_the_closed_valve_is_that_of_the_lift_at_rest(tmp_path, camroller):
+    """The base circle load of 64 N with vibration; at a thousandth of the lift the train already carries 235 N."""
+    summary, _ = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=900")
+    assert 64 < summary["closed_load_max"] < 85
 
 
 @pytest.mark.parametrize("speed, words", [(2350, "they still drift in one direction (the plunger's highest place from "),

@@ -46,6 +46,12 @@ def test_an_adjuster_that_holds_the_valve_open_has_no_better_limit_of_seating(ca
     assert rows[3] == ["-", f"above {rows[4][1]}", f"from {rows[4][1]} on it does not close"]
 
 
+def test_a_plunger_on_its_lower_stop_has_no_limit_of_pump_up(camroller):
+    rows, _ = limits(camroller, "lash_adjuster.nml", "--to", "1200", "--step", "300", "--set", "lash_adjuster.gap_um=60",
+                     "--set", "numerics.tolerance=1e-3")
+    assert rows[1][1] == "above 1200"
+
+
 def test_with_lash_the_joint_counts_in_the_event(camroller):
     """On the base circle lash leaves the joint free at every speed."""
     rows, _ = limits(camroller, "hard/dynamics/mechanical_lash.nml", "--to", "800", "--step", "400")
