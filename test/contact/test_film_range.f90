@@ -92,14 +92,14 @@ contains
       call note_film(range, groups(2.0e-10_wp, 1.0e-4_wp), .false., .true., 0.1_wp, 1.0_wp)
       call range_in_words(range, law_masjedi_khonsari, words)
       call check(error, words, "in the event, where 100 % of the follower's friction arises; U up to 2e-10, published for "// &
-         & "1e-12 to 1e-10; film.law 'pan_hamrock' and 'moes' covers that")
+         & "1e-12 to 1e-10; film.law 'pan_hamrock' and 'moes' cover that")
       if (allocated(error)) return
       range = film_range_t()
       call note_film(range, groups_t(1.0e-11_wp, 6000.0_wp, 4.0e-4_wp, 2.0e-4_wp, 0.1_wp), .false., .true., 0.1_wp, 1.0_wp)
       call range_in_words(range, law_masjedi_khonsari_rough, words)
       call check(error, words, "in the event, where 100 % of the follower's friction arises; sigma/R up to 0.0002, "// &
          & "published for 0 to 4e-5; hardness/E' up to 0.1, published for 0.005 to 0.03; film.law 'pan_hamrock' and "// &
-         & "'masjedi_khonsari' and 'moes' covers that")
+         & "'masjedi_khonsari' and 'moes' cover that")
    end subroutine test_words
 
    subroutine test_table(error)
