@@ -96,8 +96,8 @@ contains
    !>
    !> In a rigid contact of constant viscosity (Martin's film, Reynolds' exit) the shear is `2.01 sqrt(2 R h) eta V_s L/h`, that of
    !> a strip `2 sqrt(1.0144 2 R h)` wide, and the largest pressure that of a half ellipse `2 sqrt(1.0495 2 R h)` wide, with h =
-   !> 4.895 eta u R L/W. Width and pressure go over to those of the dry contact by four constants fitted to contacts that were solved
-   !> numerically (doc/theory.md, section 10, has the errors).
+   !> 4.895 eta u R L/W. Width and pressure go over to those of the dry contact by four constants fitted to contacts that were
+   !> solved numerically (doc/theory.md, section 10, has the errors).
    pure subroutine sheared_strip(oil, peak, speed_group, load_group, film_load, film, strip)
       !> Oil at its temperature
       type(oil_t), intent(in) :: oil
