@@ -37,8 +37,9 @@ module camroller_cycle_remarks
    !> (Johnson 1985, sections 4.5 and 6.3) [-]; contact stress that the static load rating of roller bearings allows (ISO 76:2006)
    !> [Pa]
    real(wp), parameter :: yield_part = 0.6_wp, static_limit = 4.0e9_wp
-   !> Part of a cycle that is all of it but for rounding [-]
-   real(wp), parameter :: all_of_it = 1.0_wp - 1.0e-9_wp
+   !> Part of a cycle that is all of it but for rounding; part from which on slip is worth a word: moments beside a lost contact are
+   !> less [-]
+   real(wp), parameter :: all_of_it = 1.0_wp - 1.0e-9_wp, notable_share = 0.01_wp
    !> Intervals without contact that a remark lists
    integer, parameter :: most_intervals = 4
 
@@ -345,7 +346,7 @@ contains
       if (statistics%hot_share > 0.0_wp) call check_hot_film(model, statistics, remarks)
       if (statistics%rolling_share > 0.0_wp) call check_rolling(statistics, remarks)
       if (statistics%thin_share > 0.0_wp) call check_thin_film(allocated(model%boundary), statistics, remarks)
-      if (statistics%rigid_share > 0.0_wp) call check_rigid(statistics, remarks)
+      if (statistics%rigid_share > notable_share) call check_rigid(statistics, remarks)
       if (statistics%liquid_share > 0.0_wp) call check_liquid(model, statistics, remarks)
       if (statistics%backward_share > 0.0_wp) call add_remark(remarks, backward_roller, "the roller turns backwards in its "// &
          & "finger for "//number_text(100.0_wp*statistics%backward_share, 3)//" % of the cycle: rolling resistance is larger "// &
