@@ -116,8 +116,9 @@ contains
          beyond = max(points(1) - temperature, temperature - points(size(points)))
          if (beyond <= max(far, distance)) return
          distance = beyond
-         words = trim(merge("the oil temperature in a camshaft bearing", "the oil temperature                      ", &
-            & rise > 0.0_wp))//", "//number_text(temperature - celsius_zero, 5)//" degC, is "//number_text(beyond, 4)// &
+         words = "the oil temperature"
+         if (rise > 0.0_wp) words = words//" in a camshaft bearing"
+         words = words//", "//number_text(temperature - celsius_zero, 5)//" degC, is "//number_text(beyond, 4)// &
             & " K "//trim(merge("below", "above", temperature < points(1)))//" all points that are given, "// &
             & number_text(points(1) - celsius_zero, 5)//" to "//number_text(points(size(points)) - celsius_zero, 5)//" degC: "// &
             & meaning//", and may be far off"

@@ -324,7 +324,7 @@ contains
       call add_name(schema, "shear_law", shear_law_names, standard%traction%shear_law, "shear of the film")
       call add_number(schema, "eyring_stress_MPa", positive, "Eyring stress of the oil", is_optional=.true.)
       call add_name(schema, "sheared_zone", zone_names, standard%traction%sheared_zone, "strip of the film that is sheared: "// &
-         & "that of the dry contact, or one that is right in nearly rigid contacts as well")
+         & "that of the dry contact, or one for nearly rigid contacts as well")
       call add_name(schema, "limit", limit_names, standard%traction%limit, &
          & "what is limited: the traction of all of the film, limiting_coefficient times the load, or the stress at each point")
       call add_number(schema, "limiting_coefficient", positive, &

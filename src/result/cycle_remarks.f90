@@ -347,10 +347,11 @@ contains
       if (statistics%rolling_share > 0.0_wp) call check_rolling(statistics, remarks)
       if (statistics%thin_share > 0.0_wp) call check_thin_film(allocated(model%boundary), statistics, remarks)
       if (statistics%rigid_share > notable_share) call check_rigid(statistics, remarks)
-      if (statistics%liquid_share > 0.0_wp) call check_liquid(model, statistics, remarks)
-      if (statistics%backward_share > 0.0_wp) call add_remark(remarks, backward_roller, "the roller turns backwards in its "// &
-         & "finger for "//number_text(100.0_wp*statistics%backward_share, 3)//" % of the cycle: rolling resistance is larger "// &
-         & "there than the shear of the film, which tells of laws beyond what they describe", 100.0_wp*statistics%backward_share)
+      if (statistics%liquid_share > notable_share) call check_liquid(model, statistics, remarks)
+      if (statistics%backward_share > notable_share) call add_remark(remarks, backward_roller, "the roller turns backwards in "// &
+         & "its finger for "//number_text(100.0_wp*statistics%backward_share, 3)//" % of the cycle: rolling resistance is "// &
+         & "larger there than the shear of the film, which tells of laws beyond what they describe", &
+         & 100.0_wp*statistics%backward_share)
       if (statistics%film_range%share <= 0.0_wp) return
       call range_in_words(statistics%film_range, model%film_law, words)
       text = "the film law is outside its published range for "
@@ -464,7 +465,7 @@ contains
       factor = merge(statistics%rigid_ratio, 1.0_wp/statistics%rigid_ratio, is_large)
       call add_remark(remarks, rigid_contact, "the roller slips for "//number_text(100.0_wp*statistics%rigid_share, 3)// &
          & " % of the cycle where the contact is nearly rigid: the shear of the film over the strip of the dry contact is up "// &
-         & "to "//number_text(factor, 3)//" times too "//merge("large", "small", is_large)//", at "// &
+         & "to about "//number_text(factor, 2)//" times too "//merge("large", "small", is_large)//", at "// &
          & cam_angle_text(statistics%rigid_angle, 1)//", and so slip is too "//merge("small", "large", is_large)// &
          & "; traction.sheared_zone = 'rigid_to_elastic' is for such contacts", factor)
    end subroutine check_rigid

@@ -130,8 +130,9 @@ module camroller_follower_samples
    !> friction as the source has it; a tenth is beyond that [-]
    real(wp), parameter :: thinnest_film = 0.1_wp
    !> Slip from which on the shear of the film has a say in it: where asperities hold the roller it slips by less [-]; error of the
-   !> shear, as a factor, from which on a word is due: twice what the strip from rigid to elastic contacts is off by [-]
-   real(wp), parameter :: notable_slip = 0.01_wp, shear_ratio_allowed = 1.3_wp
+   !> shear, as a factor, from which on a word is due, and pressure times its coefficient of viscosity up to which it is: the strip
+   !> from rigid to elastic contacts is off by 1/1.3 to 1.2 itself at light pressures, and by any factor at larger ones [-]
+   real(wp), parameter :: notable_slip = 0.01_wp, shear_ratio_allowed = 1.3_wp, light_pressure = 7.0_wp
    !> Stress below which oil shears as a liquid whatever its limit is said to be: a fifth of what the limiting stress of oils is
    !> without pressure, some MPa (Johnson and Tevaarwerk 1977; Bair and Winer 1979) [Pa]; part of its limit at which `tanh` takes a
    !> tenth of the shear [-]
@@ -213,24 +214,23 @@ contains
       !> Fraction of the cycle that the state represents [-]
       real(wp), intent(in) :: weight
 
-      ! Shear by the dry contact's strip over that by the other one [-]; limit of the mean stress [Pa], stress over it [-]
-      real(wp) :: ratio, limit, part
+      ! Shear by the dry contact's strip over that by the other one, part of its limit [-]; that limit, a mean stress; pressure [Pa]
+      real(wp) :: ratio, part, limit, peak
 
       associate (contact => state%contact)
          if (abs(contact%sliding_speed) <= notable_slip*abs(contact%rolling_speed)) return
-         if (.not. model%has_wide_shear) then
-            ratio = dry_shear_ratio(model%oil, film_pressure(contact%load - contact%asperity_load, contact%apparent_area, &
-               & contact%real_area), groups%speed, groups%load, groups%load*(1.0_wp - contact%asperity_load/contact%load), &
-               & contact%film_central/state%position%equivalent_radius)
+         peak = film_pressure(contact%load - contact%asperity_load, contact%apparent_area, contact%real_area)
+         if (.not. model%has_wide_shear .and. model%oil%pressure_viscosity*peak < light_pressure) then
+            ratio = dry_shear_ratio(model%oil, peak, groups%speed, groups%load, groups%load*(1.0_wp &
+               & - contact%asperity_load/contact%load), contact%film_central/state%position%equivalent_radius)
             if (abs(log(ratio)) > log(shear_ratio_allowed)) shares%rigid_share = shares%rigid_share + weight
             if (abs(log(ratio)) > abs(log(shares%rigid_ratio))) then
                shares%rigid_ratio = ratio
                shares%rigid_angle = angle
             end if
          end if
-         if (contact%relative_spin*contact%rolling_speed < -notable_slip*contact%rolling_speed**2/model%roller_radius) then
-            shares%backward_share = shares%backward_share + weight
-         end if
+         shares%backward_share = shares%backward_share + merge(weight, 0.0_wp, contact%relative_spin*contact%rolling_speed &
+            & < -notable_slip*contact%rolling_speed**2/model%roller_radius)
          if (model%has_local_limit) return
          limit = model%limiting_coefficient*contact%load/contact%sheared_area
          part = abs(contact%shear)/(model%limiting_coefficient*contact%load*(1.0_wp - contact%real_area/contact%apparent_area))

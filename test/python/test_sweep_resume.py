@@ -117,6 +117,32 @@ def test_a_partial_file_replaces_no_result_of_another_study(camroller, deck, ref
     assert same(reference, tmp_path / "deck.h5")
 
 
+def test_resume_does_not_replace_a_result_that_came_while_the_file_was_written(camroller, reference, tmp_path):
+    """Stopped while the parts are joined; where it was too fast to be stopped, the parts are put there again."""
+    long = write_deck(tmp_path / "long.nml", GRID.replace("count_1 = 6", "count_1 = 60"))
+    for shard in ("1/2", "2/2"):
+        done(camroller, "sweep", long, "-o", "x.h5", "--shard", shard, "--quiet", folder=tmp_path)
+    parts = {path: path.read_bytes() for path in tmp_path.glob("x.h5.part-*")}
+    for _ in range(20):
+        for path, content in parts.items():
+            path.write_bytes(content)
+        sweep = subprocess.Popen([camroller, "sweep", long, "-o", "x.h5", "--resume", "--quiet"], cwd=tmp_path, stderr=subprocess.PIPE,
+                                 text=True)
+        while sweep.poll() is None and not list(tmp_path.glob("x.h5.unfinished-*")):
+            pass
+        sweep.send_signal(signal.SIGSTOP)
+        is_caught = bool(list(tmp_path.glob("x.h5.unfinished-*"))) and not (tmp_path / "x.h5").exists()
+        if is_caught:
+            shutil.copy(reference, tmp_path / "x.h5")
+        sweep.send_signal(signal.SIGCONT)
+        words = sweep.communicate(timeout=300)[1]
+        if is_caught:
+            break
+        (tmp_path / "x.h5").unlink()
+    assert is_caught and sweep.returncode == FILE and "'x.h5' exists and is not a result of this sweep: " in words
+    assert same(reference, tmp_path / "x.h5") and all(path.exists() for path in parts)
+
+
 def test_resume_does_not_replace_a_result_that_came_meanwhile(camroller, deck, reference, tmp_path):
     long = write_deck(tmp_path / "long.nml", GRID.replace("count_1 = 6", "count_1 = 60"))
     sweep = subprocess.Popen([camroller, "sweep", long, "-o", "x.h5", "--resume", "--threads", "1", "--quiet"], cwd=tmp_path,
