@@ -89,7 +89,7 @@ contains
             reason = "peak pressure up to "//trim(text(maxval(peak_pressure(contact%load, states%position%equivalent_radius, &
                & contact%length, model%modulus))/giga))//" GPa"
          case (effect_shear)
-            lost = maxval(abs(contact%shear)/contact%apparent_area)/model%eyring_stress
+            lost = maxval(abs(contact%shear)/contact%sheared_area)/model%eyring_stress
             reason = "mean shear stress up to "//trim(percent(lost))//" of the Eyring stress"
          case (effect_inlet_heat)
             reason = "heat in the inlet thins the film by up to "//trim(percent(1.0_wp - minval(contact%inlet_factor)))

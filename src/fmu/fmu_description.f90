@@ -6,6 +6,7 @@ module camroller_fmu_description
    use camroller_kinds, only : wp
    use camroller_fmu_variables, only : variable_t, role_time, role_parameter, role_input, role_output
    use camroller_number_text, only : integer_text, number_text
+   use camroller_unit_dimensions, only : base_names, dimension_t, find_dimension
    use camroller_version, only : version_text
    implicit none
    private
@@ -74,10 +75,33 @@ contains
          do k = 1, i - 1
             is_new = is_new .and. variables(k)%unit /= variables(i)%unit
          end do
-         if (is_new) text = text//"    <Unit"//attribute("name", variables(i)%unit)//"/>"//n
+         if (is_new) call add_unit(variables(i)%unit, text)
       end do
       text = text//"  </UnitDefinitions>"//n
    end subroutine add_units
+
+   !> One unit and what it is in the base units of the SI, by which tools convert values and tell units that do not fit.
+   subroutine add_unit(unit, text)
+      !> The unit
+      character(len=*), intent(in) :: unit
+      !> Text to extend
+      character(len=:), allocatable, intent(inout) :: text
+
+      type(dimension_t) :: dimension
+      integer :: i
+      logical :: is_known
+
+      text = text//"    <Unit"//attribute("name", unit)//">"
+      call find_dimension(unit, dimension, is_known)
+      if (is_known) then
+         text = text//"<BaseUnit"
+         do i = 1, size(base_names)
+            if (dimension%exponents(i) /= 0) text = text//attribute(base_names(i), integer_text(dimension%exponents(i)))
+         end do
+         text = text//attribute("factor", number_text(dimension%factor))//attribute("offset", number_text(dimension%offset))//"/>"
+      end if
+      text = text//"</Unit>"//n
+   end subroutine add_unit
 
    !> One variable.
    subroutine add_variable(version, number, variable, text)

@@ -1,5 +1,5 @@
 !> Traction between cam and roller at a given load and film: shear of the film at its temperature, boundary friction, and how both
-!> follow a motion of the contact.
+!> follow a motion of the contact. Heat of the shear and of boundary friction is spread over the area that is sheared.
 !>
 !> In: model, contact with film and load share. Out: forces, temperatures, changes. The temperature of the film is where the heat
 !> of the shear at that temperature keeps it: its rise is the one root of `y = g |F(y + y_b)|`, with g the rise per force of the
@@ -60,8 +60,9 @@ contains
          peak = peak*parts%strip%pressure
       end if
       if (has_hot_film(model)) then
-         call flash_resistance(model%heat%band, model%heat%bodies, contact%half_width, [contact%cam_surface_speed, &
-            & contact%roller_surface_speed], parts%heat%flash, parts%heat%flash_by_width, parts%heat%flash_by_speed)
+         call flash_resistance(model%heat%band, model%heat%bodies, contact%half_width*parts%strip%width, &
+            & [contact%cam_surface_speed, contact%roller_surface_speed], parts%heat%flash, parts%heat%flash_by_width, &
+            & parts%heat%flash_by_speed)
       end if
       if (.not. has_hot_film(model)) then
          call set_boundary(model, setting, 0.0_wp, contact, parts)
@@ -300,7 +301,7 @@ contains
       integer :: i
 
       parts%heat%film = film_resistance(contact%film_central, model%heat%oil_conductivity)
-      flux = abs(contact%sliding_speed)/contact%apparent_area
+      flux = abs(contact%sliding_speed)/contact%sheared_area
       gain = flux*(parts%heat%flash*(1.0_wp - parts%share%real_area_ratio) + parts%heat%film)
       by_boundary = flux*parts%heat%flash*abs(contact%boundary_mobilised)
       low = 0.0_wp
@@ -415,8 +416,8 @@ contains
       slopes%flash_rise = 0.0_wp
       if (has_hot_film(model)) then
          own = contact%asperity_load*parts%boundary%by_temperature
-         call follow_rises(contact, parts, motion, shear, boundary + mobilised, setting%mobilised*own, area, film, &
-            & change%real_area_ratio, slopes%film_rise, slopes%flash_rise)
+         call follow_rises(contact, parts, motion, shear, boundary + mobilised, setting%mobilised*own, area + wider, &
+            & film, change%real_area_ratio, slopes%film_rise, slopes%flash_rise)
          shear = shear + parts%heat%by_rise*slopes%film_rise
          capacity = capacity + own*slopes%flash_rise
          boundary = setting%mobilised*capacity
@@ -439,7 +440,7 @@ contains
       real(wp), intent(in) :: shear, boundary
       !> Change of the boundary friction with the temperature of the surfaces [N/K]
       real(wp), intent(in) :: own
-      !> Changes of apparent area and central film, their logarithms, and of the real area ratio [-]
+      !> Changes of sheared area and central film, their logarithms, and of the real area ratio [-]
       real(wp), intent(in) :: area, film, real_area_ratio
       !> Changes of the rises of film and surfaces [K]
       real(wp), intent(out) :: film_rise, flash_rise
@@ -458,7 +459,7 @@ contains
       flash_rise = 0.0_wp
       if (.not. abs(contact%sliding_speed) > 0.0_wp) return
       associate (heat => parts%heat, ratio => parts%share%real_area_ratio)
-         flux = abs(contact%sliding_speed)/contact%apparent_area
+         flux = abs(contact%sliding_speed)/contact%sheared_area
          speeds = contact%entrainment_speed*motion%entrainment + [0.5_wp, -0.5_wp]*motion%sliding_speed
          lengths = length_changes(parts, motion)
          flash = heat%flash_by_width*(area - lengths%mean) + sum(heat%flash_by_speed*speeds)

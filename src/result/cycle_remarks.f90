@@ -1,5 +1,4 @@
-!> Remarks on the cycle of a lobe: lost contact, range of the film law, accuracy, standstills, the pivot's joint, films without
-!> limit.
+!> Remarks on the cycle of a lobe: lost contact, range of the film law, accuracy, standstills, the pivot's joint, its films.
 !>
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
@@ -16,7 +15,7 @@ module camroller_cycle_remarks
    use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : margins_t
-   use camroller_follower_samples, only : liquid_stress, thinnest_film_allowed => thinnest_film
+   use camroller_follower_samples, only : liquid_stress, shear_ratio_allowed, thinnest_film_allowed => thinnest_film
    use camroller_means, only : has_film_limit, statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
@@ -458,16 +457,18 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      real(wp) :: factor ! [-]
-      logical :: is_large
+      character(len=:), allocatable :: verdict
+      ! Mean of the logarithm of the shear's factor there, over time [-]
+      real(wp) :: excess
 
-      is_large = statistics%rigid_ratio > 1.0_wp
-      factor = merge(statistics%rigid_ratio, 1.0_wp/statistics%rigid_ratio, is_large)
+      excess = statistics%rigid_excess/statistics%rigid_share
+      verdict = "is there, on average, about "//number_text(exp(abs(excess)), 2)//" times too "// &
+         & merge("large", "small", excess > 0.0_wp)
+      if (abs(excess) < log(shear_ratio_allowed)) verdict = "is too small in some places and too large in others"
       call add_remark(remarks, rigid_contact, "the roller slips for "//number_text(100.0_wp*statistics%rigid_share, 3)// &
-         & " % of the cycle where the contact is nearly rigid: the shear of the film over the strip of the dry contact is up "// &
-         & "to about "//number_text(factor, 2)//" times too "//merge("large", "small", is_large)//", at "// &
-         & cam_angle_text(statistics%rigid_angle, 1)//", and so slip is too "//merge("small", "large", is_large)// &
-         & "; traction.sheared_zone = 'rigid_to_elastic' is for such contacts", factor)
+         & " % of the cycle where the contact is nearly rigid: the shear of the film over the strip of the dry contact "// &
+         & verdict//", and slip is off with it; traction.sheared_zone = 'rigid_to_elastic' is for such contacts", &
+         & 100.0_wp*statistics%rigid_share)
    end subroutine check_rigid
 
    !> Say that the traction of a film is limited whose pressure does not make its oil solid.

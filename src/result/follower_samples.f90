@@ -27,8 +27,8 @@ module camroller_follower_samples
    implicit none
    private
 
-   public :: shares_t, add_shares, thinnest_film, liquid_stress, follower_samples_t, start_samples, sampled_values, entrainment_t, &
-      & entrainment_of, extremes_t, widen, trail_t, contact_ahead, extend_trail
+   public :: shares_t, add_shares, thinnest_film, liquid_stress, shear_ratio_allowed, follower_samples_t, start_samples, &
+      & sampled_values, entrainment_t, entrainment_of, extremes_t, widen, trail_t, contact_ahead, extend_trail
 
    !> Fractions of a cycle without contact and outside the film law's range
    type :: shares_t
@@ -56,9 +56,9 @@ module camroller_follower_samples
       !> angle from full lift [rad]
       real(wp) :: thin_share = 0.0_wp, thinnest_ratio = huge(1.0_wp), thinnest_angle = 0.0_wp
       !> Fraction of the cycle in which the roller slips where the strip of the dry contact gives a shear off by more than
-      !> `shear_ratio_allowed` [-]; that shear over the one from rigid to elastic contacts where it is farthest off [-], and its cam
-      !> angle from full lift [rad]
-      real(wp) :: rigid_share = 0.0_wp, rigid_ratio = 1.0_wp, rigid_angle = 0.0_wp
+      !> `shear_ratio_allowed` [-]; mean over the cycle of the logarithm there of that shear over the one from rigid to elastic
+      !> contacts [-]
+      real(wp) :: rigid_share = 0.0_wp, rigid_excess = 0.0_wp
       !> Fraction of the cycle in which the limit of the traction counts below `liquid_stress` [-]; the smallest such limit [Pa]
       real(wp) :: liquid_share = 0.0_wp, least_limit = huge(1.0_wp)
       !> Fraction of the cycle in which the roller turns backwards in its finger [-]
@@ -175,7 +175,7 @@ contains
             if (allocated(model%axial)) call note_ends(shares, model, state, angle, weight)
             if (model%rolling_law == rolling_goksem_hargreaves) call note_rolling(shares, model, state, groups, angle, weight)
             if (.not. takes_whole_load(model%film_law)) call note_thin(shares, state%contact%film_ratio, angle, weight)
-            call note_shear(shares, model, state, groups, angle, weight)
+            call note_shear(shares, model, state, groups, weight)
          end if
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
@@ -200,7 +200,7 @@ contains
    end subroutine note_thin
 
    !> Note where a roller that slips is driven by laws for other films: the strip of the dry contact, a limit where oil is liquid.
-   pure subroutine note_shear(shares, model, state, groups, angle, weight)
+   pure subroutine note_shear(shares, model, state, groups, weight)
       !> The fractions
       class(shares_t), intent(inout) :: shares
       !> Model of the lobe
@@ -209,8 +209,6 @@ contains
       type(state_t), intent(in) :: state
       !> Groups of its film
       type(groups_t), intent(in) :: groups
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
       !> Fraction of the cycle that the state represents [-]
       real(wp), intent(in) :: weight
 
@@ -223,10 +221,9 @@ contains
          if (.not. model%has_wide_shear .and. model%oil%pressure_viscosity*peak < light_pressure) then
             ratio = dry_shear_ratio(model%oil, peak, groups%speed, groups%load, groups%load*(1.0_wp &
                & - contact%asperity_load/contact%load), contact%film_central/state%position%equivalent_radius)
-            if (abs(log(ratio)) > log(shear_ratio_allowed)) shares%rigid_share = shares%rigid_share + weight
-            if (abs(log(ratio)) > abs(log(shares%rigid_ratio))) then
-               shares%rigid_ratio = ratio
-               shares%rigid_angle = angle
+            if (abs(log(ratio)) > log(shear_ratio_allowed)) then
+               shares%rigid_share = shares%rigid_share + weight
+               shares%rigid_excess = shares%rigid_excess + weight*log(ratio)
             end if
          end if
          shares%backward_share = shares%backward_share + merge(weight, 0.0_wp, contact%relative_spin*contact%rolling_speed &

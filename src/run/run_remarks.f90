@@ -14,12 +14,13 @@ module camroller_run_remarks
    use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
    use camroller_remarks, only : add_remark, creeping_roller, foreign_speed, deep_wear, idle_roller, &
-      & loose_tolerance, missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, shaken_train
+      & loose_tolerance, missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, shaken_train, &
+      & untouched_film
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
 
-   public :: judge, judge_assumptions, judge_wear
+   public :: judge, judge_assumptions, judge_growth, judge_wear
 
    !> Slip over a turn of the cam beyond which a roller does not roll: those of engines slip by some per cent, and by half on their
    !> base circle alone; one that makes less than a tenth of its turns is a sliding follower [-]
@@ -32,6 +33,9 @@ module camroller_run_remarks
    real(wp), parameter :: narrowest_slice = 0.8_wp
    !> Part of the slices that this contact allows which a remark advises: with fewer slices it is a little wider [-]
    real(wp), parameter :: advised_part = 0.95_wp
+   !> Smallest film over composite roughness from which on asperities do not touch: the usual limit of full films (Hamrock and
+   !> others 2004, Fundamentals of fluid film lubrication, section 3.5) [-]
+   real(wp), parameter :: parted_ratio = 3.0_wp
    !> Largest load of a train that vibrates over that of a rigid one from where on the rigid one misleads, since friction goes with
    !> the load: twice what the estimate is off by where it is farthest off, 0.05 at 2500 rev/min (doc/dynamics.md) [-]
    real(wp), parameter :: shaken_factor = 1.1_wp
@@ -202,6 +206,25 @@ contains
             & "of this case", lowest/max(maxval(abs(speeds)), tiny(lowest)))
       end do
    end subroutine judge_speed
+
+   !> Say that a tribofilm grows on surfaces that touch nowhere.
+   subroutine judge_growth(result)
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+
+      integer :: lobe, place
+
+      do lobe = 1, size(result%summary)
+         place = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"film_ratio")
+         if (place == 0) exit
+         associate (ratio => result%summary_values(place))
+            if (ratio < parted_ratio) cycle
+            call add_named(result, lobe, untouched_film, "the film is all round at least "//number_text(ratio, 3)// &
+               & " times as thick as the surfaces are rough, so that no asperities touch: the tribofilm grows by the shear of "// &
+               & "the oil alone, and its removal_rate_per_s counts all the same", ratio)
+         end associate
+      end do
+   end subroutine judge_growth
 
    !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
    subroutine judge_wear(result)

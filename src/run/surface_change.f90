@@ -100,8 +100,8 @@ contains
       type(rates_t), intent(inout) :: rates
 
       ! Parts of the time in contact, of the place on the cam and of any place of the roller [-]; turn of the cam [s]; growth and
-      ! decay in contact [m/s], [1/s]
-      real(wp) :: on_cam, on_roller, period, growth, decay
+      ! decay in contact [m/s], [1/s]; stress along the surfaces there [Pa]
+      real(wp) :: on_cam, on_roller, period, growth, decay, stress
 
       associate (n => plan%running%places)
          period = two_pi/model%speed
@@ -112,7 +112,9 @@ contains
          rates%wear(n + 1) = rates%wear(n + 1) + on_roller*worn_per_second(plan%wear%roller_rate, contact%asperity_load, &
             & contact%apparent_area, contact%sliding_speed)
          if (.not. plan%film%largest_thickness > 0.0_wp) return
-         growth = growth_rate(plan%film, contact%traction/contact%apparent_area, plan%temperature + contact%flash_rise)
+         ! the film's shear is spread over the area that is sheared
+         stress = (contact%traction - contact%shear*(1.0_wp - contact%apparent_area/contact%sheared_area))/contact%apparent_area
+         growth = growth_rate(plan%film, stress, plan%temperature + contact%flash_rise)
          decay = growth/plan%film%largest_thickness + plan%film%removal_rate
          rates%growth(place) = on_cam*growth
          rates%decay(place) = on_cam*decay

@@ -3,6 +3,7 @@ module test_units
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
    use camroller_units, only : unit_t, unit_of_key, find_unit, to_si, from_si, length_unit_names, pressure_unit_names
+   use camroller_unit_dimensions, only : dimension_t, find_dimension
    use camroller_deck_schema, only : schema_t
    use camroller_deck_keys, only : new_schema
    implicit none
@@ -39,7 +40,9 @@ contains
          new_unittest("there and back is no change", there_and_back), &
          new_unittest("units of tables are known", units_of_tables), &
          new_unittest("each unit has the factor of the SI brochure", factors), &
-         new_unittest("each key of a deck has one of these units", units_of_keys) &
+         new_unittest("each key of a deck has one of these units", units_of_keys), &
+         new_unittest("each unit is a product of base units", products), &
+         new_unittest("what is no unit is no product", no_product) &
          ]
    end subroutine collect_units
 
@@ -179,5 +182,51 @@ contains
          if (allocated(error)) return
       end do
    end subroutine units_of_keys
+
+   !> Factors of all units are those of the table; exponents of kg, m, s, K, mol and rad are those of the SI brochure.
+   subroutine products(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: units(*) = [character(len=9) :: "N s/m", "m s-1", "W/(m K)", "mm3/(N m)", "1/GPa", "kg m2", &
+         & "degC", "rpm", "kJ/mol", "K s-1", "1"]
+      integer, parameter :: exponents(6, size(units)) = reshape([ &
+         1, 0, -1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 1, 1, -3, -1, 0, 0, -1, 1, 2, 0, 0, 0, -1, 1, 2, 0, 0, 0, 1, 2, 0, 0, 0, 0, &
+         0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 1, 1, 2, -2, 0, -1, 0, 0, 0, -1, 1, 0, 0, 0, 0, 0, 0, 0, 0], [6, size(units)])
+      type(unit_t) :: unit
+      type(dimension_t) :: found
+      logical :: is_known
+      integer :: i
+
+      do i = 1, size(names)
+         call find_unit(names(i), unit, is_known)
+         call find_dimension(trim(unit%symbol), found, is_known)
+         call check(error, is_known, "no product: "//unit%symbol)
+         if (allocated(error)) return
+         call check(error, found%factor, ones(i), rel=.true., thr=round_off, message=unit%symbol)
+         if (allocated(error)) return
+         call check(error, found%offset, to_si(unit, 0.0_wp), thr=0.0_wp, message="zero of "//unit%symbol)
+         if (allocated(error)) return
+      end do
+      do i = 1, size(units)
+         call find_dimension(trim(units(i)), found, is_known)
+         call check(error, is_known .and. all(found%exponents == exponents(:, i)), "exponents of "//units(i))
+         if (allocated(error)) return
+      end do
+   end subroutine products
+
+   subroutine no_product(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: words(*) = [character(len=8) :: "", "furlong", "N xs", "zm", "m-"]
+      type(dimension_t) :: found
+      logical :: is_known
+      integer :: i
+
+      do i = 1, size(words)
+         call find_dimension(trim(words(i)), found, is_known)
+         call check(error, .not. is_known .and. all(found%exponents == 0), "no unit: "//words(i))
+         if (allocated(error)) return
+      end do
+   end subroutine no_product
 
 end module test_units

@@ -134,6 +134,13 @@ def test_fmpy_has_no_findings(write, version):
     assert by_name["roller.mass_kg"].causality == "parameter" and float(by_name["roller.mass_kg"].start) == 0.0105
     assert by_name["cam[1].film_thickness_min"].unit == "m"
     assert "film thickness" in by_name["cam[1].film_thickness_min"].description
+    bases = {unit.name: unit.baseUnit for unit in description.unitDefinitions}
+    # kg, m, s of watts and of pressures; an angle of a parameter in degrees
+    assert (bases["W"].kg, bases["W"].m, bases["W"].s, bases["W"].factor) == (1, 2, -3, 1.0)
+    assert (bases["GPa"].kg, bases["GPa"].m, bases["GPa"].s, bases["GPa"].factor) == (1, -1, -2, 1e9)
+    assert (bases["degree"].rad, bases["rad s-1"].rad, bases["rad s-1"].s) == (1, 1, -1)
+    assert bases["degree"].factor == pytest.approx(math.pi / 180, rel=1e-15)
+    assert None not in bases.values() and {variable.unit for variable in description.modelVariables} <= {None, *bases}
     with zipfile.ZipFile(path) as archive:
         assert archive.testzip() is None
         names = archive.namelist()

@@ -106,3 +106,12 @@ def test_a_creeping_roller_at_a_crawl_has_the_remark_without_wear(folder, camrol
 def test_a_host_refuses_hours_of_running(folder, camroller):
     refused = run(camroller, "fmu", DECK, "-o", "hours.fmu", folder=folder)
     assert refused.returncode == 2 and "leave &running_in out" in refused.stderr and not (folder / "hours.fmu").exists()
+
+
+def test_a_film_without_asperities_has_a_remark(camroller, tmp_path):
+    """Smooth surfaces, whose tribofilm is as smooth: the shear of the oil alone makes it grow."""
+    words = "times as thick as the surfaces are rough, so that no asperities touch: the tribofilm grows by the shear of the oil alone"
+    smooth = ["--set", "surface.cam_roughness_um=0.01", "--set", "surface.roller_roughness_um=0.01", "--set",
+              "tribofilm.roughness_ratio=0", "--set", "operating_point.speed_rpm=900", "--no-sweep"]
+    assert words in done(camroller, "run", DECK, *COARSE[:4], *smooth, "-o", "x.h5", folder=tmp_path).stderr
+    assert words not in done(camroller, "run", DECK, *COARSE[:4], "--no-sweep", "-o", "y.h5", folder=tmp_path).stderr
