@@ -22,7 +22,7 @@ module camroller_axial_table
    private
 
    public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_lengths, slice_loads, &
-      & slice_width, axial_state
+      & slice_width, axial_state, oiled_parts
 
    !> Largest W/(E' R L), at the largest radius; steps of ln(load), their most [-]; the first is a peak
    !> pressure of about 4.5 GPa with steel
@@ -45,6 +45,8 @@ module camroller_axial_table
       type(roller_profile_t) :: profile
       !> The numbers [m], [Pa], [m]
       real(wp) :: length, modulus, radii(2)
+      !> Gaps of the unloaded bodies in the middle of each slice, zero where they touch first [m]
+      real(wp), allocatable :: gaps(:)
       !> ln(W/(E' L^2)) of the first and the last point, ln(R/L) of the radii [-]
       real(wp) :: first, last
       real(wp), allocatable :: log_radii(:)
@@ -90,6 +92,7 @@ contains
       places = slice_place([(i, i=1, profile%slices)], profile%slices, length)
       call new_slices(slices, length, modulus, profile_gap(profile, length, modulus, places), &
          & profile%coupling == coupling_names(coupling_half_space))
+      part%gaps = slices%gaps
       middle = 0.5_wp*log(radii(1)*radii(2)/length**2)
       reach = 0.5_wp*log(radii(2)/radii(1)) + radius_margin
       count = min(most_radii, 2 + int(2.0_wp*reach/radius_step))
@@ -454,5 +457,25 @@ contains
       state%peak = state%peak*(known%mean/lengths%mean)
       state%ends = state%ends*(known%mean/lengths%mean)
    end function axial_state
+
+   !> Parts of the roller that the dry contact loads, and on which the gap is wider by no more than a film than where that ends. In
+   !> a rigid contact of constant viscosity the load goes with one over the film, so that there the load per length is at least
+   !> half as large as where the dry contact ends.
+   pure function oiled_parts(part, load, radius, film) result(parts)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Load, W [N]; equivalent radius, R [m]; central film [m]
+      real(wp), intent(in) :: load, radius, film
+      !> Both parts [-]
+      real(wp) :: parts(2)
+
+      ! Loads per length over W/L [-]
+      real(wp) :: loads(size(part%gaps))
+
+      call slice_loads(part, load, radius, loads)
+      parts(1) = count(loads > 0.0_wp)
+      parts(2) = count(part%gaps <= maxval(part%gaps, loads > 0.0_wp) + film)
+      parts = parts/size(loads)
+   end function oiled_parts
 
 end module camroller_axial_table

@@ -15,15 +15,15 @@ module camroller_cycle_remarks
    use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : margins_t
-   use camroller_follower_samples, only : liquid_stress, shear_ratio_allowed, thinnest_film_allowed => thinnest_film
+   use camroller_cycle_shares, only : liquid_stress, shear_ratio_allowed, thinnest_film_allowed => thinnest_film
    use camroller_means, only : has_film_limit, statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
    use camroller_remarks, only : remark_t, add_remark, backward_roller, beyond_pressure_law, cut_off_contact, film_without_limit, &
       & foreign_asperities, hot_film, hot_inlet, lifted_valve, lost_contact, open_pivot, outside_range, pumped_adjuster, &
-      & liquid_limit, rigid_contact, rolling_out_of_range, rubbing_contact, rubbing_pin, standing_entrainment, unloaded_end, &
-      & unresolved_slip, yielding_surface
+      & liquid_limit, oiled_slices, rigid_contact, rolling_out_of_range, rubbing_contact, rubbing_pin, standing_entrainment, &
+      & unloaded_end, unresolved_slip, yielding_surface
    use camroller_result, only : lobe_scope
    implicit none
    private
@@ -290,6 +290,12 @@ contains
       if (statistics%one_end_share > 0.0_wp) call add_remark(remarks, unloaded_end, "tilt takes all load from one end of the "// &
          & "roller for "//number_text(100.0_wp*statistics%one_end_share, 3)//" % of the cycle", &
          & 100.0_wp*statistics%one_end_share)
+      if (statistics%oiled_share > notable_share) call add_remark(remarks, oiled_slices, "for "// &
+         & number_text(100.0_wp*statistics%oiled_share, 3)//" % of the cycle the contact is nearly rigid and its film thick "// &
+         & "beside the depth of the profile: the dry contact loads as little as "//number_text(100.0_wp*statistics%oiled_parts(1), &
+         & 2)//" % of the roller, at "//cam_angle_text(statistics%oiled_angle, 1)//", and oil would carry on "// &
+         & number_text(100.0_wp*statistics%oiled_parts(2), 2)//" %; rolling resistance, which goes by the dry contact, is "// &
+         & "too small there, and slip is off with it", 100.0_wp*statistics%oiled_share)
    end subroutine check_ends
 
    !> Say that the lash adjuster pumps up or its joint opens, which the model leaves out.

@@ -16,7 +16,7 @@ module camroller_flexible_report
    use camroller_flexible_solution, only : error_share, flexible_solution_t, statistical_turns
    use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle
-   use camroller_follower_samples, only : add_shares, shares_t
+   use camroller_cycle_shares, only : add_shares, shares_t
    use camroller_kinds, only : two_pi, wp, not_a_number
    use camroller_lash_adjuster, only : relative_volume
    use camroller_model, only : model_t

@@ -1,6 +1,7 @@
 """The commands of the README, the reader of Fortran sources and the set-up."""
 
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -253,3 +254,19 @@ def test_the_list_of_planted_faults_fits_the_sources():
             assert f'"{fault["suite"]}"' in suites and fault["suite"] != "regression"
         else:
             assert all((ROOT / word).is_file() for word in fault["pytest"].split())
+
+
+def test_a_library_with_code_of_a_file_that_is_gone_is_made_again(tmp_path):
+    """Two libraries, one of which has what a deleted file had been compiled to; fpm itself is replaced."""
+    for folder in ("tools", ".venv/bin", "src/base", "build/old/camroller", "build/new/camroller"):
+        (tmp_path / folder).mkdir(parents=True)
+    shutil.copy(ROOT / "tools/fpm", tmp_path / "tools/fpm")
+    (tmp_path / ".venv/bin/fpm").symlink_to("/bin/true")
+    (tmp_path / "src/base/kinds.f90").touch()
+    for build, members in (("new", ["src_base_kinds.f90.o"]), ("old", ["src_base_kinds.f90.o", "src_base_moved.f90.o"])):
+        for member in members:
+            (tmp_path / member).touch()
+        subprocess.run(["ar", "-rs", f"build/{build}/camroller/libcamroller.a", *members], cwd=tmp_path, check=True,
+                       capture_output=True)
+    subprocess.run(["tools/fpm", "build"], cwd=tmp_path, check=True)
+    assert [path.parts[-3] for path in tmp_path.glob("build/*/camroller/libcamroller.a")] == ["new"]

@@ -7,7 +7,7 @@ module test_axial_follower
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_kinematics, only : rotation_names
    use camroller_model, only : model_t
-   use camroller_remarks, only : cut_off_contact, unloaded_end
+   use camroller_remarks, only : cut_off_contact, oiled_slices, unloaded_end
    use camroller_result, only : result_t, find_quantity, get_summary
    use camroller_roller_profile, only : roller_profile_t
    use camroller_run, only : run_case
@@ -240,6 +240,20 @@ contains
       call expect_success(error, failure)
       if (allocated(error)) return
       call check(error, .not. any(result%remarks%kind == cut_off_contact .or. result%remarks%kind == unloaded_end), "crowned")
+      if (allocated(error)) return
+      ! The film of the base circle at 25 degC is as thick as a tilt of 0.1 mrad is deep; a roller without a profile has none to fill
+      call set_point(case, point_speeds(1), point_viscosities(1))
+      case%roller_profile = roller_profile_t(tilt=1.0e-4_wp)
+      call run_case(case, result, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call check(error, any(result%remarks%kind == oiled_slices), "oil beside the dry contact")
+      if (allocated(error)) return
+      case%roller_profile = roller_profile_t()
+      call run_case(case, result, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call check(error, .not. any(result%remarks%kind == oiled_slices), "a cylinder that stands straight")
    end subroutine test_remarks
 
 end module test_axial_follower

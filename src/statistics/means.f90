@@ -17,7 +17,8 @@ module camroller_means
    use camroller_cycle_walk, only : walk_t, walk_round, trapezoid
    use camroller_error_estimate, only : estimated_error
    use camroller_extremes, only : samples_t, move_samples
-   use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t, shares_t
+   use camroller_cycle_shares, only : shares_t
+   use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t
    use camroller_slip_errors, only : slip_errors_t, find_slip_errors
    use camroller_lobe_curve, only : lobe_curve_t, move_curve
    use camroller_names, only : name_length

@@ -8,7 +8,8 @@ module camroller_cycle_walk
    use camroller_cycle, only : cycle_t
    use camroller_defects, only : defect_at, find_defect
    use camroller_error_estimate, only : add_defect, end_interval, estimate_t
-   use camroller_follower_samples, only : add_shares, entrainment_of, entrainment_t, follower_samples_t, shares_t
+   use camroller_cycle_shares, only : add_shares, shares_t
+   use camroller_follower_samples, only : entrainment_of, entrainment_t, follower_samples_t
    use camroller_lobe_curve, only : add_piece, close_curve, keep_state, lobe_curve_t, start_curve
    use camroller_panels, only : add_panel, add_trapezoid, gauss_points, gauss_weights, panel_places, panel_points, panel_weights, &
       & panels_t, start_panels
