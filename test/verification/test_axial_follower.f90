@@ -241,7 +241,7 @@ contains
       if (allocated(error)) return
       call check(error, .not. any(result%remarks%kind == cut_off_contact .or. result%remarks%kind == unloaded_end), "crowned")
       if (allocated(error)) return
-      ! The film of the base circle at 25 degC is as thick as a tilt of 0.1 mrad is deep; a roller without a profile has none to fill
+      ! The film of the base circle at 25 degC is as thick as a tilt of 0.1 mrad is deep; a roller that stands straight has none
       call set_point(case, point_speeds(1), point_viscosities(1))
       case%roller_profile = roller_profile_t(tilt=1.0e-4_wp)
       call run_case(case, result, failure)
