@@ -136,8 +136,9 @@ contains
             if (is_good(errors)) exit
          end do
          if (.not. means%has_states) call integrate_torques(model, path, means%torques, error, means%extremes, means%error)
+         if (allocated(error)) return
          means%error = means%error + errors%torque + spin_error(errors, model, path, spin)
-         if (.not. allocated(error)) call judge_piece(model, path, stops, error)
+         call judge_piece(model, path, stops, error)
       end associate
    end subroutine cover_piece
 
