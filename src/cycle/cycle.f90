@@ -282,7 +282,7 @@ contains
       type(cycle_t), intent(inout) :: cycle
       !> The model
       type(model_t), intent(in), target :: model
-      !> Method and tolerance
+      !> Method and tolerance, resolved
       type(numerics_t), intent(in) :: numerics
       !> Scale of the sliding speed [m/s]
       real(wp), intent(in) :: scale
@@ -295,11 +295,8 @@ contains
       !> Deck error for an unknown method
       type(error_t), allocatable, intent(out) :: error
 
-      type(numerics_t) :: resolved
-
-      resolved = resolve_numerics(numerics)
-      cycle%tolerance = resolved%tolerance
-      call new_method(method, resolved%method, 1, error)
+      cycle%tolerance = numerics%tolerance
+      call new_method(method, numerics%method, 1, error)
       if (allocated(error)) return
       cycle%has_surface_speed = method%error_order == 0
       cycle%is_linear = cycle%has_surface_speed
@@ -307,13 +304,13 @@ contains
       cycle%trajectory%is_linear = cycle%is_linear
       problem%model => model
       problem%has_surface_speed = cycle%has_surface_speed
-      problem%accuracy = contact_accuracy*resolved%tolerance
+      problem%accuracy = contact_accuracy*numerics%tolerance
       if (cycle%is_linear) problem%accuracy = 0.0_wp
-      options%tolerance = [step_part*resolved%tolerance*scale]
+      options%tolerance = [step_part*numerics%tolerance*scale]
       options%step = merge(numerics%step, first_step, cycle%is_linear)
       if (method%needs_jacobian) then
          options%max_steps = most_implicit_steps
-         options%max_evaluations = evaluations_allowed(resolved%tolerance)
+         options%max_evaluations = evaluations_allowed(numerics%tolerance)
       end if
    end subroutine choose_method
 

@@ -118,7 +118,8 @@ contains
          if (allocated(model%flexible%adjuster)) pivot = train([at_plunger, at_plunger_rate])
          call find_touch(model, angle, train(at_finger), train(at_finger_rate), pivot(1), pivot(2), touch, status)
          touches = status == 0 .and. touch%approach > 0.0_wp
-         if (step > 1 .and. (touches .neqv. has_touched)) angles = [angles, path%time(step)]
+         if (step == 1) has_touched = touches
+         if (touches .neqv. has_touched) angles = [angles, path%time(step)]
          has_touched = touches
       end do
    end function contact_changes
