@@ -13,7 +13,7 @@ module camroller_saved_simulation
    use camroller_model_mark, only : beginning, mixed
    use camroller_shaft_simulation, only : shaft_simulation_t, prepare_shaft, cam_number, cam_point, get_shaft_mark, set_shaft, &
       & shaft_angle
-   use camroller_simulation, only : simulation_t, start_simulation, get_point, set_point, get_lobe, get_mark, is_started
+   use camroller_simulation, only : simulation_t, prepare_simulation, get_point, set_point, get_lobe, get_mark, is_started
    implicit none
    private
 
@@ -68,16 +68,15 @@ contains
       !> Usage error for a block that is none, is of another format or belongs to another case
       type(error_t), allocatable, intent(out) :: error
 
-      type(point_t) :: point
+      type(simulation_t) :: prepared
       integer(int64), allocatable :: block(:)
 
       call take_block(bytes, "restore_simulation", words, 0_int64, block, error)
       if (allocated(error)) return
-      point = point_of(block(5:4 + point_words))
-      ! Its start is of no account: opposite full lift it takes no time
-      call start_simulation(simulation, case, 0.0_wp, error, int(block(4)))
-      if (.not. allocated(error)) call compare_marks("restore_simulation", get_mark(simulation), block(3), error)
-      if (.not. allocated(error)) call set_point(simulation, point, error)
+      call prepare_simulation("restore_simulation", prepared, case, int(block(4)), error)
+      if (.not. allocated(error)) call compare_marks("restore_simulation", get_mark(prepared), block(3), error)
+      if (.not. allocated(error)) call set_point(prepared, point_of(block(5:4 + point_words)), error)
+      if (.not. allocated(error)) simulation = prepared
    end subroutine restore_simulation
 
    !> Bytes of the block of a shaft.
@@ -139,7 +138,7 @@ contains
 
       call take_block(bytes, "restore_shaft", max(size(bytes)/8, shaft_words), of_shaft, block, error)
       if (allocated(error)) return
-      call prepare_shaft(shaft, case, error, threads)
+      call prepare_shaft("restore_shaft", shaft, case, error, threads)
       if (allocated(error)) return
       call get_shaft_mark(shaft, mark)
       call compare_marks("restore_shaft", mark, block(3), error)

@@ -57,7 +57,7 @@ contains
 
       integer :: cam
 
-      call prepare_shaft(shaft, case, error, threads)
+      call prepare_shaft("start_shaft", shaft, case, error, threads)
       if (.not. allocated(error)) call check_angle("start_shaft", cam_angle, error)
       if (.not. allocated(error)) then
          shaft%angle = cam_angle
@@ -70,7 +70,9 @@ contains
    end subroutine start_shaft
 
    !> Make the models of a shaft, whose followers are still to be placed.
-   subroutine prepare_shaft(shaft, case, error, threads)
+   subroutine prepare_shaft(caller, shaft, case, error, threads)
+      !> Who asks
+      character(len=*), intent(in) :: caller
       !> The shaft; without followers where there is an error
       type(shaft_simulation_t), intent(out) :: shaft
       !> A case
@@ -85,11 +87,11 @@ contains
 
       if (present(threads)) shaft%threads = threads
       if (shaft%threads < 1) then
-         call raise(error, kind_usage, "start_shaft: the number of threads must be 1 or more")
+         call raise(error, kind_usage, caller//": the number of threads must be 1 or more")
          return
       end if
       if (needs_turn(case)) then
-         call raise(error, kind_usage, "start_shaft: orbits of journals and heat of camshaft bearings follow from a "// &
+         call raise(error, kind_usage, caller//": orbits of journals and heat of camshaft bearings follow from a "// &
             & "whole turn, not step by step; set journal_motion = 'quasi_steady' in &cam_bearings and leave &bearing_heat out")
          return
       end if
@@ -103,7 +105,7 @@ contains
             ! A shape is prepared once
             first = findloc(lobes, lobes(cam), 1)
             if (first < cam) shaft%followers(cam) = shaft%followers(first)
-            if (first == cam) call prepare_simulation(shaft%followers(cam), case, lobes(cam), error)
+            if (first == cam) call prepare_simulation(caller, shaft%followers(cam), case, lobes(cam), error)
             if (allocated(error)) exit
          end do
       end associate

@@ -72,20 +72,22 @@ contains
 
       used_lobe = 1
       if (present(lobe)) used_lobe = lobe
-      call check_start(case, cam_angle, used_lobe, error)
-      if (.not. allocated(error)) call prepare_simulation(started, case, used_lobe, error)
+      call check_angle("start_simulation", cam_angle, error)
+      if (.not. allocated(error)) call prepare_simulation("start_simulation", started, case, used_lobe, error)
       if (allocated(error)) return
       call place_simulation(started, cam_angle, error)
       if (.not. allocated(error)) simulation = started
    end subroutine start_simulation
 
    !> Make the model of a follower, and what its steps are measured by.
-   subroutine prepare_simulation(started, case, used_lobe, error)
+   subroutine prepare_simulation(caller, started, case, used_lobe, error)
+      !> Who asks
+      character(len=*), intent(in) :: caller
       !> The follower; to be placed at a cam angle
       type(simulation_t), intent(out) :: started
       !> A case
       type(case_t), intent(in) :: case
-      !> Lobe shape, which the case must have
+      !> Lobe shape
       integer, intent(in) :: used_lobe
       !> Usage, deck or domain error
       type(error_t), allocatable, intent(out) :: error
@@ -94,15 +96,12 @@ contains
       real(wp) :: sliding_speed, least_scale, unused
       integer :: evaluations
 
-      if (allocated(case%running_in)) then
-         call raise(error, kind_usage, "start_simulation: hours of running are computed from whole cycles, not from steps; "// &
-            & "leave &running_in out, and the surfaces are those of the case")
-         return
-      end if
+      call check_start(caller, case, used_lobe, error)
+      if (allocated(error)) return
       call build_model(case, used_lobe, started%follower%model, error)
       if (allocated(error)) return
       if (.not. has_error_control(case%numerics)) then
-         call raise(error, kind_usage, "start_simulation: the method '"//trim(case%numerics%method)//"' has no error "// &
+         call raise(error, kind_usage, caller//": the method '"//trim(case%numerics%method)//"' has no error "// &
             & "control; choose 'automatic' or another method with error control")
          return
       end if
@@ -143,25 +142,26 @@ contains
       end associate
    end subroutine place_simulation
 
-   !> Refuse a start that cannot be.
-   subroutine check_start(case, cam_angle, lobe, error)
+   !> Refuse a case and a lobe that cannot be advanced.
+   subroutine check_start(caller, case, lobe, error)
+      !> Who asks
+      character(len=*), intent(in) :: caller
       !> The case
       type(case_t), intent(in) :: case
-      !> Cam angle [rad]
-      real(wp), intent(in) :: cam_angle
       !> Lobe shape
       integer, intent(in) :: lobe
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
       if (lobe < 1 .or. lobe > 2) then
-         call raise(error, kind_usage, "start_simulation: the lobe must be 1, for the case's lift, or 2, for its second_lift, "// &
+         call raise(error, kind_usage, caller//": the lobe must be 1, for the case's lift, or 2, for its second_lift, "// &
             & "not "//integer_text(lobe))
       else if (lobe == 2 .and. .not. allocated(case%second_lift)) then
-         call raise(error, kind_usage, "start_simulation: lobe 2 needs a case with second_lift; give the case "// &
+         call raise(error, kind_usage, caller//": lobe 2 needs a case with second_lift; give the case "// &
             & "one, or take lobe 1")
-      else
-         call check_angle("start_simulation", cam_angle, error)
+      else if (allocated(case%running_in)) then
+         call raise(error, kind_usage, caller//": hours of running are computed from whole cycles, not from steps; "// &
+            & "leave &running_in out, and the surfaces are those of the case")
       end if
    end subroutine check_start
 

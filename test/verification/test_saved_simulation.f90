@@ -216,6 +216,10 @@ contains
       other%mechanism%contact_width = 1.001_wp*case%mechanism%contact_width
       call restore_simulation(simulation, other, block, failure)
       if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "another case")
+      other = case
+      other%numerics%method = "euler"
+      call restore_simulation(simulation, other, block, failure)
+      if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "restore_simulation: the method")
       call save_simulation(unstarted, block, failure)
       if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "start_simulation")
    end subroutine test_refusals

@@ -295,6 +295,9 @@ contains
       call restore_shaft(restored, thesis_case(), block, failure)
       call check(error, allocated(failure), "a block of more cams was taken")
       if (allocated(error)) return
+      call restore_shaft(restored, the_case, block, failure, threads=0)
+      call expect_error(error, failure, kind_usage, "restore_shaft: the number of threads")
+      if (allocated(error)) return
       block(60) = not(block(60))
       call restore_shaft(restored, the_case, block, failure)
       call check(error, index(failure%message, "damaged") > 0, "a damaged block was taken")
