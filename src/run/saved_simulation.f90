@@ -143,6 +143,10 @@ contains
       call get_shaft_mark(shaft, mark)
       call compare_marks("restore_shaft", mark, block(3), error)
       if (allocated(error)) return
+      if (block(4) /= cam_number(shaft) .or. size(bytes) /= shaft_block_size(shaft)) then
+         call raise(error, kind_usage, "restore_shaft: the block is of another number of cams")
+         return
+      end if
       allocate (points(cam_number(shaft)))
       do cam = 1, size(points)
          points(cam) = point_of(block(point_place(cam):point_place(cam + 1) - 1))

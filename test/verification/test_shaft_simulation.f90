@@ -1,13 +1,14 @@
 !> All followers of a case driven together: against the run of the case, one follower alone, other numbers of threads and of steps.
 module test_shaft_simulation
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_value
-   use, intrinsic :: iso_fortran_env, only : int8
+   use, intrinsic :: iso_fortran_env, only : int8, int64
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller, only : wp, two_pi, error_t, case_t, result_t, simulation_t, outcome_t, inputs_t, &
       & shaft_simulation_t, shaft_outcome_t, kind_usage, run_case, get_series, get_summary, &
       & start_simulation, advance, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, &
       & shaft_angle, shaft_values
    use camroller_catalogue, only : list_series, camshaft_columns
+   use camroller_model_mark, only : mixed
    use camroller_result, only : quantity_t, find_quantity
    use camroller_torque_list, only : of_bearings
    use deck_cases, only : get_deck_case
@@ -269,6 +270,7 @@ contains
       type(shaft_simulation_t) :: shaft, copy, restored
       type(shaft_outcome_t) :: outcome
       integer(int8), allocatable :: block(:)
+      integer(int64), allocatable :: words(:), fewer(:)
       type(error_t), allocatable :: failure
       ! Means of the turn after [N m]
       real(wp) :: means(3, 3)
@@ -294,6 +296,14 @@ contains
       if (allocated(error)) return
       call restore_shaft(restored, thesis_case(), block, failure)
       call check(error, allocated(failure), "a block of more cams was taken")
+      if (allocated(error)) return
+      ! a block without its last cam, whose checksum is right
+      allocate (words(size(block)/8))
+      words = transfer(block, words)
+      fewer = [words(:3), 2_int64, words(5:5 + (size(words) - 6)/3*2), 0_int64]
+      fewer(size(fewer)) = mixed(fewer(:size(fewer) - 1))
+      call restore_shaft(restored, the_case, transfer(fewer, block), failure)
+      call expect_error(error, failure, kind_usage, "another number of cams")
       if (allocated(error)) return
       call restore_shaft(restored, the_case, block, failure, threads=0)
       call expect_error(error, failure, kind_usage, "restore_shaft: the number of threads")
