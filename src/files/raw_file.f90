@@ -18,7 +18,7 @@ module camroller_raw_file
    private
 
    public :: raw_file_t, open_raw, create_raw, append_words, append_text, read_words, cut_raw, sync_raw, settle_raw, close_raw
-   public :: find_files, is_locked, wait_for_lock, write_letters
+   public :: find_files, is_locked, lock_raw, write_letters
 
    !> Bytes of a word
    integer(int64), parameter, public :: word_size = 8_int64
@@ -83,19 +83,24 @@ contains
       file%bytes = c_lseek(file%descriptor, 0_c_int64_t, from_end)
    end subroutine open_raw
 
-   !> Wait until no other process has a lock on a file, and have one.
-   subroutine wait_for_lock(file, error)
+   !> Have the lock of a file alone.
+   subroutine lock_raw(file, is_waiting, is_mine, error)
       !> An open file; its content is read again
       type(raw_file_t), intent(inout) :: file
+      !> Wait for a process that has it?
+      logical, intent(in) :: is_waiting
+      !> Is it had? Where not, there is an error, or another process has it and was not waited for
+      logical, intent(out) :: is_mine
       !> File error where there are no locks
       type(error_t), allocatable, intent(out) :: error
 
-      if (c_flock(file%descriptor, lock_exclusive) /= 0) then
-         call raise(error, kind_file, "cannot lock '"//file%path//"': "//last_words())
-      else
+      is_mine = c_flock(file%descriptor, merge(lock_exclusive, lock_at_once, is_waiting)) == 0
+      if (is_mine) then
          file%bytes = c_lseek(file%descriptor, 0_c_int64_t, from_end)
+      else if (is_waiting .or. error_number() /= would_block) then
+         call raise(error, kind_file, "cannot lock '"//file%path//"': "//last_words())
       end if
-   end subroutine wait_for_lock
+   end subroutine lock_raw
 
    !> Has another process a lock on a file?
    function is_locked(file) result(verdict)

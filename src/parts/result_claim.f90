@@ -10,7 +10,7 @@ module camroller_result_claim
    use camroller_mistakes, only : line_t
    use camroller_output_kind, only : result_kind
    use camroller_part_file, only : part_beginning
-   use camroller_raw_file, only : append_words, close_raw, find_files, is_locked, open_raw, raw_file_t, read_words, wait_for_lock, &
+   use camroller_raw_file, only : append_words, close_raw, find_files, is_locked, lock_raw, open_raw, raw_file_t, read_words, &
       & word_size
    use camroller_system_file, only : remove_file
    implicit none
@@ -47,17 +47,14 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       integer(int64) :: words(1)
-      logical :: is_lock
+      logical :: has_lock, is_lock
 
       is_mine = .false.
       do
          call open_raw(claim%file, part_beginning(path)//"lock", .true., error, is_shared=.true.)
          if (allocated(error)) exit
-         if (.not. is_waiting) then
-            if (is_locked(claim%file)) exit
-         end if
-         call wait_for_lock(claim%file, error)
-         if (allocated(error)) exit
+         call lock_raw(claim%file, is_waiting, has_lock, error)
+         if (.not. has_lock) exit
          if (claim%file%bytes == 0) then
             call append_words(claim%file, [lock_mark], error)
             is_mine = .not. allocated(error)
