@@ -52,7 +52,8 @@ contains
       !> Integers, those of the first process on return
       integer, allocatable, intent(inout) :: numbers(:)
 
-      if (self%rank /= 0) deallocate (numbers)
+      associate (alone => self, those_of_all => numbers)
+      end associate
    end subroutine share_alone
 
    !> Largest number of all processes; all of them call it and wait for each other.
@@ -62,7 +63,8 @@ contains
       !> A number, the largest one on return
       integer, intent(inout) :: number
 
-      if (self%ranks < 1) number = 0
+      associate (alone => self, largest => number)
+      end associate
    end subroutine largest_alone
 
    !> Exit code that all processes have in common: 0 where none has an error. All of them call it.

@@ -289,7 +289,8 @@ contains
       character(len=words_length) :: text
 
       text = cam_angle_text(time, 3)//" of a journal's orbit"
-      if (.not. associated(self%load)) text = ""
+      associate (unused => self)
+      end associate
    end function name_orbit_angle
 
 end module camroller_journal_orbit
