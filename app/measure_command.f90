@@ -14,7 +14,7 @@ module camroller_measure_command
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, drop_sweep, make_case, make_sweep_case, override_t, read_deck
    use camroller_deck_sweep, only : sweep_size, case_in_words
-   use camroller_kinds, only : pi, wp
+   use camroller_kinds, only : per_minute
    use camroller_laws_page, only : add_laws_table
    use camroller_limit_speeds, only : limits_t, start_limits, try_speed
    use camroller_limits_page, only : write_limits_page
@@ -107,8 +107,6 @@ contains
       !> What went wrong
       type(error_t), allocatable, intent(out) :: error
 
-      ! Rad/s in a rev/min [-]
-      real(wp), parameter :: minute = pi/30.0_wp
       type(hdf5_columns_t) :: columns
       type(deck_t) :: deck
       type(case_t) :: case
@@ -121,8 +119,8 @@ contains
       if (allocated(error)) return
       call drop_sweep(deck)
       call make_case(deck, none, case, error)
-      if (.not. allocated(error)) call start_limits(search, case, config%seating_speed, minute*config%highest_speed, &
-         & minute*min(config%speed_step, config%highest_speed), error)
+      if (.not. allocated(error)) call start_limits(search, case, config%seating_speed, config%highest_speed/per_minute, &
+         & min(config%speed_step, config%highest_speed)/per_minute, error)
       if (allocated(error)) return
       if (.not. (config%is_quiet .or. search%is_flexible)) call tell_unused_options(config)
       call start_console(progress, config%is_quiet)

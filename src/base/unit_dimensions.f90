@@ -4,7 +4,7 @@
 !> A unit is a product of the symbols below, each with a prefix or without, with a power or without; a stroke divides by the
 !> symbol after it, or by all within brackets. Source: BIPM (2019), The International System of Units, tables 2, 4, 7 and 8.
 module camroller_unit_dimensions
-   use camroller_kinds, only : wp, pi, celsius_zero
+   use camroller_kinds, only : wp, degree, per_minute, celsius_zero
    implicit none
    private
 
@@ -13,7 +13,7 @@ module camroller_unit_dimensions
    !> Base units
    character(len=*), parameter :: base_names(*) = [character(len=3) :: "kg", "m", "s", "K", "mol", "rad"]
 
-   !> A unit: SI value = factor*value + offset
+   !> A unit: SI value = factor*value + offset. Only a unit of one symbol has an offset: in products it is one of differences
    type :: dimension_t
       !> Exponents of the base units
       integer :: exponents(size(base_names)) = 0
@@ -42,8 +42,8 @@ module camroller_unit_dimensions
       symbol_t("W", dimension_t([1, 2, -3, 0, 0, 0])), &
       symbol_t("bar", dimension_t([1, -1, -2, 0, 0, 0], 1.0e5_wp)), &
       symbol_t("h", dimension_t([0, 0, 1, 0, 0, 0], 3600.0_wp)), &
-      symbol_t("degree", dimension_t([0, 0, 0, 0, 0, 1], pi/180.0_wp)), &
-      symbol_t("rpm", dimension_t([0, 0, -1, 0, 0, 1], pi/30.0_wp)), &
+      symbol_t("degree", dimension_t([0, 0, 0, 0, 0, 1], degree)), &
+      symbol_t("rpm", dimension_t([0, 0, -1, 0, 0, 1], 1.0_wp/per_minute)), &
       symbol_t("degC", dimension_t([0, 0, 0, 1, 0, 0], 1.0_wp, celsius_zero))]
    !> Prefixes, and the powers of ten that they are
    character(len=*), parameter :: prefixes = "numckMG"
@@ -61,10 +61,11 @@ contains
       logical, intent(out) :: is_known
 
       type(dimension_t) :: found
-      integer :: first, last, sense
+      integer :: first, last, sense, symbols_read
       logical :: in_brackets
 
       is_known = len_trim(unit) > 0
+      symbols_read = 0
       sense = 1
       in_brackets = .false.
       first = 1
@@ -85,7 +86,9 @@ contains
             ! a quotient, so that the thousandth of a unit is the number nearest to it
             if (sense > 0) dimension%factor = dimension%factor*found%factor
             if (sense < 0) dimension%factor = dimension%factor/found%factor
-            dimension%offset = found%offset
+            symbols_read = symbols_read + 1
+            if (symbols_read == 1 .and. sense > 0) dimension%offset = found%offset
+            if (symbols_read > 1) dimension%offset = 0.0_wp
             if (.not. in_brackets) sense = 1
          end select
          first = last + 1
@@ -140,6 +143,7 @@ contains
 
       dimension%exponents = power*dimension%exponents
       dimension%factor = dimension%factor**power
+      if (power /= 1) dimension%offset = 0.0_wp
    end subroutine raise
 
 end module camroller_unit_dimensions

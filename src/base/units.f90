@@ -1,4 +1,4 @@
-!> Units of keys and tables: the one table of factors to SI.
+!> Units of keys and tables, and their factors to SI.
 !>
 !> In: a key such as `base_radius_mm` or the name of a unit. Out: the conversion from that unit to SI and back. A key whose last
 !> words are not a known unit is in SI, or has no unit.

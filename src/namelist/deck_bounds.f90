@@ -3,7 +3,7 @@
 !> In: the unit of a key. Out: the smallest and the largest magnitude of a number in it. A number outside of them is a slip of
 !> the pen, and products of several such numbers leave the range of numbers: a modulus of 1e-310 GPa has no reciprocal.
 module camroller_deck_bounds
-   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_kinds, only : wp, degree, per_minute
    use camroller_units, only : unit_t, find_unit
    use camroller_number_text, only : number_text
    implicit none
@@ -27,7 +27,7 @@ module camroller_deck_bounds
       bounds_t("m mm um", "length", 1.0e-12_wp, 1.0e3_wp), &
       bounds_t("cm3", "volume", 1.0e-12_wp, 1.0e3_wp), &
       bounds_t("deg", "angle", 1.0e-9_wp*degree, 1.0e5_wp*degree), &
-      bounds_t("rpm", "speed of rotation", 1.0e-6_wp*two_pi/60.0_wp, 1.0e6_wp*two_pi/60.0_wp), &
+      bounds_t("rpm", "speed of rotation", 1.0e-6_wp/per_minute, 1.0e6_wp/per_minute), &
       bounds_t("degC", "temperature", 0.0_wp, 1.0e4_wp), &
       bounds_t("s", "time", 1.0e-6_wp, 1.0e9_wp), &
       bounds_t("m_s", "speed", 1.0e-12_wp, 1.0e4_wp), &

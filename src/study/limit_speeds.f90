@@ -33,7 +33,7 @@ module camroller_limit_speeds
    !> Tolerance of the integration where the case gives none [-]
    real(wp), parameter :: usual_tolerance = 1.0e-4_wp
    !> Width at which halving ends [rad/s]: 1 rev/min
-   real(wp), parameter :: width = pi/30.0_wp
+   real(wp), parameter :: width = 1.0_wp/per_minute
 
    !> A search
    type :: limits_t

@@ -189,6 +189,8 @@ contains
 
       character(len=*), parameter :: units(*) = [character(len=9) :: "N s/m", "m s-1", "W/(m K)", "mm3/(N m)", "1/GPa", "kg m2", &
          & "degC", "rpm", "kJ/mol", "K s-1", "1"]
+      ! units in which a degree is one of a difference
+      character(len=*), parameter :: of_differences(*) = [character(len=6) :: "W/degC", "degC s", "1/degC", "degC-1"]
       integer, parameter :: exponents(6, size(units)) = reshape([ &
          1, 0, -1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 1, 1, -3, -1, 0, 0, -1, 1, 2, 0, 0, 0, -1, 1, 2, 0, 0, 0, 1, 2, 0, 0, 0, 0, &
          0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 1, 1, 2, -2, 0, -1, 0, 0, 0, -1, 1, 0, 0, 0, 0, 0, 0, 0, 0], [6, size(units)])
@@ -210,6 +212,11 @@ contains
       do i = 1, size(units)
          call find_dimension(trim(units(i)), found, is_known)
          call check(error, is_known .and. all(found%exponents == exponents(:, i)), "exponents of "//units(i))
+         if (allocated(error)) return
+      end do
+      do i = 1, size(of_differences)
+         call find_dimension(trim(of_differences(i)), found, is_known)
+         call check(error, is_known .and. .not. abs(found%offset) > 0.0_wp, "zero of "//of_differences(i))
          if (allocated(error)) return
       end do
    end subroutine products
