@@ -40,7 +40,7 @@ module camroller_case
    private
 
    public :: case_t, operating_point_t, numerics_t, selection_t, camshaft_number, has_engine, gas_force_of, check_bookkeeping, &
-      & energy_names, contact_policy_names, method_names, quasi_static, method_choices, automatic_method, select_names, &
+      & energy_names, contact_policy_names, quasi_static, method_choices, automatic_method, select_names, &
       & select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
 
    !> Name of the model that takes the roller's spin from its quasi-static balance

@@ -14,7 +14,7 @@ module camroller_asperity
    implicit none
    private
 
-   public :: asperity_t, asperity_constants_t, asperity_law_names, boundary_names, mobilisation_names, largest_film_ratio
+   public :: asperity_t, asperity_constants_t, asperity_law_names, boundary_names, mobilisation_names
    public :: boundary_part_t, new_boundary_part, friction_modifier_t, coverage, set_boundary_temperature
    public :: boundary_friction_t, find_boundary_friction, largest_coefficient, has_one_coefficient
    public :: law_greenwood_tripp, law_zhao_maietta_chang, law_masjedi_khonsari, smallest_product

@@ -17,7 +17,7 @@ module camroller_ehl_solution
    implicit none
    private
 
-   public :: ehl_films_t, ehl_options_t, solve_contact_film, solve_cold, solve_on_grid, solve_on_grids, make_grid
+   public :: ehl_options_t, solve_contact_film, solve_cold, solve_on_grid, solve_on_grids, make_grid
 
    !> What may be chosen; nothing here decides whether a solution is found
    type :: ehl_options_t

@@ -24,8 +24,8 @@ module camroller_output
    use camroller_error, only : error_t, raise, kind_internal
    use camroller_layout, only : layout_t
    use camroller_output_options, only : output_options_t
-   use camroller_output_file, only : abandon_output, check_open, finish_file, format_version, &
-      & not_computed, not_written, output_t, result_format, start_file
+   use camroller_output_file, only : abandon_output, check_open, finish_file, not_computed, not_written, output_t, &
+      & result_format, start_file
    use camroller_output_cases, only : check_position, create_layout => add_layout, gather_row, write_remark, write_rows, &
       & write_series_row, write_status
    use camroller_output_facts, only : write_deck, write_deck_table, write_measured, write_overrides, write_run, write_sweep, &
@@ -33,7 +33,7 @@ module camroller_output
    implicit none
    private
 
-   public :: output_t, output_options_t, result_format, format_version, not_computed
+   public :: output_t, output_options_t, result_format, not_computed
    public :: open_output, add_layout, write_outcome, close_output, abandon_output
    public :: write_deck, write_deck_table, write_table_count, write_overrides, write_sweep, write_measured, write_run
 
