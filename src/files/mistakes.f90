@@ -10,7 +10,7 @@ module camroller_mistakes
    implicit none
    private
 
-   public :: line_t, mistakes_t, add_line, add_mistake, is_shown_at, raise_mistakes, shown, override_place
+   public :: line_t, mistakes_t, add_line, add_mistake, is_shown_at, raise_mistakes, shown, override_place, continues
 
    !> Where a mistake is that stands in no file: in a value given beside the deck
    character(len=*), parameter :: override_place = "override"

@@ -2,7 +2,7 @@
 !>
 !> In: a text. Out: a mistake at the first line that is in another encoding.
 module camroller_text_encoding
-   use camroller_mistakes, only : add_mistake, mistakes_t
+   use camroller_mistakes, only : add_mistake, continues, mistakes_t
    use camroller_number_text, only : integer_text
    use camroller_text_lines, only : line_at, text_lines_t
    implicit none
@@ -44,7 +44,7 @@ contains
       !> The place
       integer :: place
 
-      integer :: length
+      integer :: length, i
 
       place = 1
       do while (place <= len(text))
@@ -62,25 +62,13 @@ contains
          end select
          if (place + length - 1 > len(text)) return
          if (length > 1) then
-            if (any(.not. continues(text(place + 1:place + length - 1)))) return
+            if (.not. all([(continues(text(i:i)), i=place + 1, place + length - 1)])) return
             if (is_out_of_range(iachar(text(place:place)), iachar(text(place + 1:place + 1)))) return
          end if
          place = place + length
       end do
       place = 0
    end function first_foreign
-
-   !> Does each byte continue a character?
-   pure function continues(bytes) result(verdicts)
-      !> The bytes
-      character(len=*), intent(in) :: bytes
-      !> Does it?
-      logical :: verdicts(len(bytes))
-
-      integer :: i
-
-      verdicts = [(iachar(bytes(i:i)) >= 128 .and. iachar(bytes(i:i)) <= 191, i=1, len(bytes))]
-   end function continues
 
    !> Are two bytes the start of a character that is written too long, of half a pair of UTF-16, or beyond the last one?
    pure function is_out_of_range(first, second) result(verdict)
