@@ -5,6 +5,7 @@ module camroller_roller_profile
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length, find_name
+   use camroller_number_text, only : integer_text
    implicit none
    private
 
@@ -64,7 +65,8 @@ contains
       else if (.not. profile%end_drop >= 0.0_wp) then
          call raise(error, kind_deck, "roller profile: the drop at the ends must not be negative")
       else if (profile%slices < fewest_slices .or. profile%slices > most_slices) then
-         call raise(error, kind_deck, "roller profile: from 11 to 201 slices")
+         call raise(error, kind_deck, "roller profile: from "//integer_text(fewest_slices)//" to "// &
+            & integer_text(most_slices)//" slices")
       end if
    end subroutine check_roller_profile
 

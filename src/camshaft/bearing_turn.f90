@@ -16,6 +16,7 @@ module camroller_bearing_turn
    use camroller_journal_orbit, only : bearing_load_t, find_orbit, orbit_t, place_at
    use camroller_lobe_curve, only : curve_values
    use camroller_lubricant, only : density_at, get_oil, law_direct, oil_t, temperature_law_names
+   use camroller_number_text, only : number_text
    use camroller_quadrature, only : gauss_legendre
    use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
    use camroller_shaft, only : bearing_number, cam_at, has_orbits, in_common_frame, needs_turn, refine_curves, shaft_stops, &
@@ -259,7 +260,8 @@ contains
          call narrow_bracket(bracket, miss)
       end do
       if (bracket%status /= root_found) then
-         call raise(error, kind_domain, "the oil of a camshaft bearing would be more than 200 K warmer than its supply: "// &
+         call raise(error, kind_domain, "the oil of a camshaft bearing would be more than "// &
+            & number_text(largest_rise)//" K warmer than its supply: "// &
             & "hardly any leaves a bearing that bears so little, or asperities rub the more the warmer it is; lower "// &
             & "bearing_heat.oil_share, or leave &bearing_heat out")
          return

@@ -9,12 +9,14 @@ module camroller_accuracy
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : find_name
+   use camroller_number_text, only : number_text
    use camroller_case, only : numerics_t, automatic_method, quasi_static, method_choices
    implicit none
    private
 
    public :: check_numerics, is_within, above_zero, divides_turn, resolve_numerics, first_numerics, has_error_control, is_checked, &
-      & has_tolerance, refine_tolerance, way_out, most_refinements, second_method, far_beyond, evaluations_allowed
+      & has_tolerance, refine_tolerance, way_out, most_refinements, second_method, far_beyond, evaluations_allowed, &
+      & largest_accuracy, largest_periodicity, largest_step
 
    !> Method with the least work for errors from 1e-2 to 1e-8, or near it
    character(len=*), parameter :: chosen_method = "hermite"
@@ -72,17 +74,22 @@ contains
       call find_name("integration method", numerics%method, method_choices, position, error)
       if (allocated(error)) return
       if (.not. is_within(numerics%accuracy, above_zero, largest_accuracy)) then
-         call raise(error, kind_deck, "numerics: the accuracy must be above 0, and 0.1 at most")
+         call raise(error, kind_deck, "numerics: the accuracy must be above 0, and "//number_text(largest_accuracy)// &
+            & " at most")
       else if (.not. is_within(numerics%tolerance, 0.0_wp, largest_accuracy)) then
-         call raise(error, kind_deck, "numerics: the tolerance must be 0 (the accuracy decides), or above 0 and 0.1 at most")
+         call raise(error, kind_deck, "numerics: the tolerance must be 0 (the accuracy decides), or above 0 and "// &
+            & number_text(largest_accuracy)//" at most")
       else if (.not. is_within(numerics%step, above_zero, largest_step)) then
-         call raise(error, kind_deck, "numerics: the step must be above 0, and 90 degrees (in radians) at most")
+         call raise(error, kind_deck, "numerics: the step must be above 0, and "//number_text(largest_step/degree, 3)// &
+            & " degrees (in radians) at most")
       else if (.not. is_within(numerics%periodicity, above_zero, largest_periodicity)) then
-         call raise(error, kind_deck, "numerics: the periodicity must be above 0, and 1 at most")
+         call raise(error, kind_deck, "numerics: the periodicity must be above 0, and "// &
+            & number_text(largest_periodicity)//" at most")
       else if (numerics%max_cycles < 1) then
          call raise(error, kind_deck, "numerics: max_cycles must be 1 or more")
       else if (.not. (is_within(numerics%output_step, above_zero, largest_step) .and. divides_turn(numerics%output_step))) then
-         call raise(error, kind_deck, "numerics: output_step must be 90 degrees (in radians) at most, and a turn a whole "// &
+         call raise(error, kind_deck, "numerics: output_step must be "//number_text(largest_step/degree, 3)// &
+            & " degrees (in radians) at most, and a turn a whole "// &
             & "multiple of it, with fewer than a million points")
       end if
    end subroutine check_numerics

@@ -7,6 +7,7 @@ module camroller_heat
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_deck
    use camroller_names, only : name_length, find_name
+   use camroller_number_text, only : number_text
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at, temperature_law_names, law_direct, law_roelands
    use camroller_conjunction, only : hot_oil_t, body_t, band_t, new_band, warm_oil
    implicit none
@@ -149,10 +150,10 @@ contains
          return
       end if
       if (.not. is_direct) then
-         do i = 1, 2
+         do i = 1, size(warm)
             call get_oil(lubricant, temperature + i*temperature_step, warm(i), error)
             if (allocated(error)) then
-               call add_context(error, "heat, up to 30 K above the oil temperature")
+               call add_context(error, "heat, up to "//number_text(size(warm)*temperature_step)//" K above the oil temperature")
                return
             end if
             falls(i) = log(oil%viscosity/warm(i)%viscosity)/(i*temperature_step)

@@ -3,8 +3,9 @@
 !> In: defaults and names from the types of the sub-models. Out: the schema. A key whose value is not in SI has its unit as its last
 !> word. Defaults are those of the types, so that a library user and a deck get the same.
 module camroller_deck_keys
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp, pi, degree
    use camroller_units, only : length_unit_names, pressure_unit_names
+   use camroller_accuracy, only : largest_accuracy, largest_periodicity, largest_step
    use camroller_case, only : case_t, contact_policy_names, energy_names, method_choices, select_names, quantity_names
    use camroller_lift, only : lift_t, lift_law_names, largest_exponent
    use camroller_kinematics, only : rotation_names
@@ -456,18 +457,18 @@ contains
       type(case_t), intent(in) :: standard
 
       call add_group(schema, "numerics", group_standard, "how the roller's spin is integrated")
-      call add_number(schema, "accuracy", range_t(1.0e-10_wp, 0.1_wp), &
+      call add_number(schema, "accuracy", range_t(1.0e-10_wp, largest_accuracy), &
          & "largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest speed in pure "// &
          & "rolling), of each mean relative to its mean magnitude, of smallest and largest values relative to their range", &
          & default=standard%numerics%accuracy)
       call add_name(schema, "method", method_choices, standard%numerics%method, "integration method; 'automatic' takes "// &
          & "the one with the least work")
-      call add_number(schema, "tolerance", range_t(1.0e-13_wp, 0.1_wp), &
+      call add_number(schema, "tolerance", range_t(1.0e-13_wp, largest_accuracy), &
          & "in place of accuracy: error of a step relative to the largest sliding speed; the result's error is not controlled", &
          & is_optional=.true.)
-      call add_number(schema, "step_deg", up_to(90.0_wp), "cam angle of a step", &
+      call add_number(schema, "step_deg", up_to(largest_step/degree), "cam angle of a step", &
          & default=standard%numerics%step)
-      call add_number(schema, "periodicity", up_to(1.0_wp), &
+      call add_number(schema, "periodicity", up_to(largest_periodicity), &
          & "largest difference of the sliding speed between start and "// &
          & "end of the reported cycle, relative to its largest value; a tenth of 'tolerance' suffices, with 'accuracy' it is "// &
          & "0.01 of that", &
@@ -488,7 +489,7 @@ contains
       type(output_options_t) :: options
 
       call add_group(schema, "output", group_standard, "contents of the result file")
-      call add_number(schema, "angle_step_deg", up_to(90.0_wp), &
+      call add_number(schema, "angle_step_deg", up_to(largest_step/degree), &
          & "cam angle between output points; 360 is a whole multiple of it", &
          & default=standard%numerics%output_step)
       call add_logical(schema, "series", options%series, "are the series over the cam angle written, or the summary alone?")

@@ -9,6 +9,7 @@
 !> Dowson and Higginson, Elasto-Hydrodynamic Lubrication (1966); density `(5.9e8 Pa + 1.34 p)/(5.9e8 Pa + p)` there.
 module camroller_ehl_problem
    use camroller_kinds, only : wp, pi
+   use camroller_number_text, only : number_text
    use camroller_lubricant, only : oil_t, log_relative_viscosity
    use camroller_hertz, only : half_width, peak_pressure
    use camroller_traction, only : cap_smooth
@@ -209,13 +210,13 @@ contains
       case (in_range)
          text = "in range"
       case (pressure_out_of_range)
-         text = "peak pressure of the dry contact above 1.5 GPa"
+         text = "peak pressure of the dry contact above "//number_text(1.0e-9_wp*largest_pressure, 3)//" GPa"
       case (exponent_out_of_range)
-         text = "pressure-viscosity coefficient times peak pressure above 35"
+         text = "pressure-viscosity coefficient times peak pressure above "//number_text(largest_exponent)
       case (speed_out_of_range)
-         text = "speed group U outside 1e-15 to 1e-7"
+         text = "speed group U outside "//number_text(speed_range(1))//" to "//number_text(speed_range(2))
       case default
-         text = "load group W* outside 1e-8 to 1e-2"
+         text = "load group W* outside "//number_text(load_range(1))//" to "//number_text(load_range(2))
       end select
    end function range_text
 

@@ -8,6 +8,7 @@ module camroller_lift
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length, find_name
+   use camroller_number_text, only : integer_text
    use camroller_spline, only : spline_t, evaluate_spline
    use camroller_lift_segments, only : evaluate_segments, new_segments, segments_t
    use camroller_lift_table, only : new_table_event
@@ -352,18 +353,19 @@ contains
       !> What is wrong
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=*), parameter :: too_large = "an exponent of a lift law is at most 200: with a larger one the lift bends "// &
-         & "within less than a 200th of the half angle"
       integer :: i, j
       integer, allocatable :: given(:)
+      character(len=:), allocatable :: too_large
 
+      too_large = "an exponent of a lift law is at most "//integer_text(largest_exponent)//": with a larger one the lift bends "// &
+         & "within less than a "//integer_text(largest_exponent)//"th of the half angle"
       allocate (given(0))
       if (allocated(lift%exponents)) given = lift%exponents
       if (law%law == law_power) then
          if (size(given) /= 1) then
             call raise(error, kind_deck, "lift law 'power' needs one exponent")
          else if (given(1) < min_power) then
-            call raise(error, kind_deck, "exponent of lift law 'power' must be at least 3, "// &
+            call raise(error, kind_deck, "exponent of lift law 'power' must be at least "//integer_text(min_power)//", "// &
                "or the acceleration would jump at the ends of the event")
          else if (given(1) > largest_exponent) then
             call raise(error, kind_deck, too_large)
