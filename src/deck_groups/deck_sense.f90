@@ -314,7 +314,7 @@ contains
          do i = 1, size(full_lift)
             if (abs(modulo(full_lift(i) + 0.5_wp*cycle_angle, cycle_angle) - 0.5_wp*cycle_angle) >= near_firing) cycle
             call add_line(remarks, "engine.full_lift_deg = "//number_text(full_lift(i)/degree, digits)// &
-               & ": a valve would be wide open within 120 degrees of the firing of its cylinder, from which full lift counts")
+               & ": a valve would be wide open within "//number_text(near_firing/degree, digits)//" degrees of the firing of its cylinder, from which full lift counts")
             exit
          end do
       end if
