@@ -77,7 +77,8 @@ contains
       if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = &
          & "; is the angle that of the crankshaft? A table takes the cam's, half of it"
       call add_line(remarks, table%path//": an event of "//number_text(length, digits)// &
-         & " degrees of cam angle is unusual: engines have 60 to 220"//words)
+         & " degrees of cam angle is unusual: engines have "//number_text(usual_event(1), digits)//" to "// &
+         & number_text(usual_event(2), digits)//words)
    end subroutine remark_lift
 
    !> A lift table whose noise makes up the acceleration.
