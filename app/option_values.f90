@@ -4,6 +4,7 @@
 module camroller_option_values
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_kinds, only : wp
+   use camroller_number_text, only : number_text
    implicit none
    private
 
@@ -33,7 +34,8 @@ contains
          number = found
          return
       end if
-      call raise(error, kind_usage, "option '"//option//"' takes a speed above 0 and up to 100000, not '"//value//"'"//advice)
+      call raise(error, kind_usage, "option '"//option//"' takes a speed above 0 and up to "//number_text(largest)// &
+         & ", not '"//value//"'"//advice)
    end subroutine read_positive
 
    !> A whole number within bounds.
