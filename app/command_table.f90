@@ -3,6 +3,7 @@
 !> Out: the table, texts of the command `help`. `cli` reads the words of a command line by it; `commands` has one line for each
 !> command that says what runs.
 module camroller_command_table
+   use camroller_flexible_measures, only : event_words
    implicit none
    private
 
@@ -151,7 +152,7 @@ contains
 
       call add(commands, "limit", "DECK", "speeds up to which the train follows its cam", &
          & "Find the lowest speeds at which the joint of the pivot unloads, the lash adjuster pumps up, cam and roller"//n// &
-         & "part in the upper 3/4 of the lift, and the valve meets its seat too fast or no longer closes: for the deck"//n// &
+         & "part in the "//event_words//", and the valve meets its seat too fast or no longer closes: for the deck"//n// &
          & "without its &sweep, whatever its speed. Those of the rigid train follow from its forces. A train with &dynamics"//n// &
          & "is run at one speed after another, and between two of them where a limit was passed, with a tolerance of 1e-4"//n// &
          & "where the deck gives none; a limit that is passed and regained within a step is not seen. Prints a table.")

@@ -108,6 +108,8 @@ module camroller_flexible_measures
    integer, parameter :: measure_count(2) = [residual_work, size(measures)]
    !> Part of the largest lift above which a load counts as one of the event [-]
    real(wp), parameter, public :: event_part = 0.25_wp
+   !> What is above it, in words
+   character(len=*), parameter, public :: event_words = "upper 3/4 of the lift"
    !> Part of the largest lift below which a table's noise may be all that rises [-]
    real(wp), parameter :: noise_part = 1.0e-3_wp
    !> Part of a plunger's travel above its lower stop in which it counts as on it: it may tremble and bounce there [-]

@@ -10,7 +10,7 @@ module camroller_limit_speeds
    use camroller_case, only : case_t
    use camroller_error, only : error_t, add_context
    use camroller_events, only : cycle_stops, find_stops
-   use camroller_flexible_measures, only : event_check_share, event_pivot_force, seating_speed, smallest_event_load, &
+   use camroller_flexible_measures, only : event_check_share, event_pivot_force, event_words, seating_speed, smallest_event_load, &
       & smallest_lift, smallest_pivot_force
    use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
    use camroller_margins, only : find_margins, margins_t
@@ -28,7 +28,7 @@ module camroller_limit_speeds
       & limit_count = 5
    !> What happens at them
    character(len=*), parameter :: limit_names(*) = [character(len=48) :: "the joint of the pivot unloads", &
-      & "the lash adjuster pumps up", "cam and roller part in the upper 3/4 of the lift", "the valve meets its seat faster than", &
+      & "the lash adjuster pumps up", "cam and roller part in the "//event_words, "the valve meets its seat faster than", &
       & "the valve no longer closes"]
    !> Tolerance of the integration where the case gives none [-]
    real(wp), parameter :: usual_tolerance = 1.0e-4_wp
