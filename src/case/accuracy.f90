@@ -10,6 +10,7 @@ module camroller_accuracy
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : find_name
    use camroller_number_text, only : number_text
+   use camroller_ode_methods, only : method_facts
    use camroller_case, only : numerics_t, automatic_method, quasi_static, method_choices
    implicit none
    private
@@ -22,8 +23,6 @@ module camroller_accuracy
    character(len=*), parameter :: chosen_method = "hermite"
    !> Method that takes over where that one fails and none is named: slower, and hardly ever at a loss
    character(len=*), parameter :: second_method = "rodas5p"
-   !> Method without error control
-   character(len=*), parameter :: fixed_method = "euler"
    !> Tolerance over accuracy: errors of the sliding speed stay within twice the tolerance with the chosen method, but extremes and
    !> means of steep forces are estimated at up to a hundred times it [-]
    real(wp), parameter :: tolerance_share = 0.01_wp
@@ -155,7 +154,7 @@ contains
       !> True where the accuracy is a promise
       logical :: verdict
 
-      verdict = .not. numerics%tolerance > 0.0_wp .and. has_error_control(numerics)
+      verdict = .not. numerics%tolerance > 0.0_wp .and. has_error_control(numerics%method)
    end function is_checked
 
    !> Is the tolerance given by hand, to a method that keeps to one?
@@ -165,17 +164,17 @@ contains
       !> True where it is
       logical :: verdict
 
-      verdict = numerics%tolerance > 0.0_wp .and. has_error_control(numerics)
+      verdict = numerics%tolerance > 0.0_wp .and. has_error_control(numerics%method)
    end function has_tolerance
 
    !> Does the method choose its steps by an error?
-   pure function has_error_control(numerics) result(verdict)
-      !> As given
-      type(numerics_t), intent(in) :: numerics
+   pure function has_error_control(method) result(verdict)
+      !> Its name, or that of the program's choice
+      character(len=*), intent(in) :: method
       !> True where it does
       logical :: verdict
 
-      verdict = numerics%method /= fixed_method .and. numerics%method /= quasi_static
+      verdict = method /= quasi_static .and. .not. any(method_facts%name == method .and. method_facts%companion_order == 0)
    end function has_error_control
 
    !> Evaluations that a turn may take with an implicit method.

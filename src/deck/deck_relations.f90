@@ -4,7 +4,7 @@
 !> where one of its values is wrong already. What needs the geometry worked out is checked by the model.
 module camroller_deck_relations
    use camroller_kinds, only : wp
-   use camroller_accuracy, only : divides_turn
+   use camroller_accuracy, only : divides_turn, has_error_control
    use camroller_journal, only : law_can_orbit, law_covers_width, orbit_advice, width_advice
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t
@@ -98,11 +98,8 @@ contains
 
       if (.not. has_group(settings, "asperity")) return
       if (get_word(settings, "asperity", "mobilisation") /= "stick_slip") return
-      select case (get_word(settings, "numerics", "method"))
-      case ("euler", "quasi_static")
-         call complain(mistakes, settings, "asperity", "mobilisation", "'stick_slip' needs an integration method with error "// &
-            & "control; choose another 'method' in &numerics")
-      end select
+      if (.not. has_error_control(get_word(settings, "numerics", "method"))) call complain(mistakes, settings, "asperity", &
+         & "mobilisation", "'stick_slip' needs an integration method with error control; choose another 'method' in &numerics")
    end subroutine stick_slip_has_a_method
 
    !> The finger has a mass, a moment of inertia or both.

@@ -2,6 +2,7 @@
 !>
 !> In: defaults of the types; settings. Out: groups and keys in the schema; components of a case; a mistake for each broken rule.
 module camroller_deck_dynamics
+   use camroller_accuracy, only : has_error_control
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_schema, only : add_group, add_integer, add_name, add_number, from_to, group_effect, not_negative, &
@@ -204,11 +205,9 @@ contains
          if (get_word(settings, "asperity", "mobilisation") == "stick_slip") call complain(mistakes, settings, "asperity", &
             & "mobilisation", "'mobilisation' must be 'regularised' with &dynamics")
       end if
-      select case (get_word(settings, "numerics", "method"))
-      case ("euler", "quasi_static", "hermite")
-         call complain(mistakes, settings, "numerics", "method", "'method' must be 'automatic', 'rodas5p', 'radau5' or "// &
-            & "'dormand_prince' with &dynamics")
-      end select
+      if (.not. has_error_control(get_word(settings, "numerics", "method")) .or. &
+         & get_word(settings, "numerics", "method") == "hermite") call complain(mistakes, settings, "numerics", "method", &
+         & "'method' must be 'automatic', 'rodas5p', 'radau5' or 'dormand_prince' with &dynamics")
       if (has_group(settings, "lash_adjuster")) then
          lash = 0.0_wp
          call take(settings, "dynamics", "lash_mm", lash)

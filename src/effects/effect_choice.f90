@@ -10,7 +10,8 @@ module camroller_effect_choice
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_names, only : find_name
-   use camroller_case, only : case_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
+   use camroller_accuracy, only : has_error_control
+   use camroller_case, only : case_t, quasi_static, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
       & quantity_slip
    use camroller_effect_bearings, only : mean_bearing_torque
    use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_dynamics, effect_spin, &
@@ -25,8 +26,6 @@ module camroller_effect_choice
 
    public :: wants_choice, choose_effects
 
-   !> Method that may be far from the solution
-   character(len=*), parameter :: fixed_step = "euler"
    !> Factor of the estimates on the changes that the survey of the cycle finds [-]
    real(wp), parameter :: margin = 5.0_wp
    !> Changes beyond this are too large to be estimated from small ones [-]
@@ -131,7 +130,8 @@ contains
       allocate (choice%decisions(0), surveys(size(models)), trains(size(models)))
       do lobe = 1, size(models)
          call make_survey(models(lobe), surveys(lobe))
-         if (case%numerics%method == fixed_step) surveys(lobe)%trouble = "a fixed step may not resolve the cycle"
+         if (.not. has_error_control(case%numerics%method) .and. case%numerics%method /= quasi_static) surveys(lobe)%trouble = &
+            & "a fixed step may not resolve the cycle"
          if (allocated(case%running_in)) surveys(lobe)%trouble = "the surfaces change over the hours of running"
          choice%evaluations = choice%evaluations + surveys(lobe)%evaluations
          call estimate_train(models(lobe), trains(lobe))

@@ -41,7 +41,7 @@ module camroller_flexible_solution
    integer, parameter :: most_work = 2000000
    !> Method for a single unknown, which the roller alone is, and the one that takes its place
    character(len=*), parameter :: single_method = "hermite"
-   character(len=*), parameter :: chosen_method = "rodas5p"
+   character(len=*), parameter :: method_for_trains = "rodas5p"
    !> Tolerance of a step over that of the roller's equation for the same accuracy: with it estimates of the error of load and slip
    !> stay near the accuracy [-]
    real(wp), parameter, public :: tolerance_ratio = 0.4_wp
@@ -99,9 +99,9 @@ contains
       integer :: max_cycles
 
       method = train_method(numerics)
-      if (.not. has_error_control(numerics)) then
+      if (.not. has_error_control(numerics%method)) then
          call raise(error, kind_deck, "numerics.method = '"//trim(method)//"' controls no error, which a flexible train needs; "// &
-            & "take '"//chosen_method//"' or 'radau5'")
+            & "take '"//method_for_trains//"' or 'radau5'")
          return
       end if
       solution%cycle%tolerance = tolerance_ratio*numerics%tolerance
@@ -212,7 +212,7 @@ contains
       character(len=name_length) :: method
 
       method = numerics%method
-      if (method == single_method) method = chosen_method
+      if (method == single_method) method = method_for_trains
    end function train_method
 
    !> Measures of all turns.

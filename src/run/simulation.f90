@@ -100,7 +100,7 @@ contains
       if (allocated(error)) return
       call build_model(case, used_lobe, started%follower%model, error)
       if (allocated(error)) return
-      if (.not. has_error_control(case%numerics)) then
+      if (.not. has_error_control(case%numerics%method)) then
          call raise(error, kind_usage, caller//": the method '"//trim(case%numerics%method)//"' has no error "// &
             & "control; choose 'automatic' or another method with error control")
          return
