@@ -81,7 +81,8 @@ contains
             cycle
          end if
          laws = laws + 1
-         call get_values(result, values, worst)
+         call get_values(result, values, worst, error)
+         if (allocated(error)) return
          smallest = min(smallest, values)
          largest = max(largest, values)
          line = line(:first_width)
@@ -104,15 +105,16 @@ contains
    end subroutine add_laws_table
 
    !> Values of the columns.
-   subroutine get_values(result, values, worst)
+   subroutine get_values(result, values, worst, error)
       !> Result of a case
       type(result_t), intent(in) :: result
       !> The values [unit of the column]
       real(wp), intent(out) :: values(:)
       !> Headings of those that are the worst of several lobe shapes, parted by commas
       character(len=:), allocatable, intent(out) :: worst
+      !> Usage error where the result lacks one
+      type(error_t), allocatable, intent(out) :: error
 
-      type(error_t), allocatable :: error
       ! Value of another lobe shape [unit of the column]
       real(wp) :: other
       integer :: i, lobe
@@ -120,9 +122,11 @@ contains
       worst = ""
       do i = 1, size(columns)
          call get_summary(result, name_of(columns(i), 1), values(i), error)
+         if (allocated(error)) return
          lobe = 2
          do while (find_quantity(result%summary, name_of(columns(i), lobe)) > 0)
             call get_summary(result, name_of(columns(i), lobe), other, error)
+            if (allocated(error)) return
             values(i) = worse_of(columns(i)%statistic, values(i), other)
             if (lobe == 2 .and. worst /= "") worst = worst//", "
             if (lobe == 2) worst = worst//heading_of(columns(i))

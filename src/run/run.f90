@@ -142,7 +142,7 @@ contains
       call run_listed(case, models, with_series, result, error)
       if (.not. allocated(case%running_in) .or. allocated(error)) return
       call add_running_in(case, models, aged, result)
-      if (allocated(case%wear)) call judge_wear(result)
+      if (allocated(case%wear)) call judge_wear(result, error)
       if (allocated(case%tribofilm)) call judge_growth(result)
    end subroutine run_aged
 
@@ -216,8 +216,8 @@ contains
             & earlier%statistics, with_series, result, error)
          if (allocated(error)) return
       end if
-      call judge_assumptions(case, result)
-      call judge(case%numerics, result, error)
+      call judge_assumptions(case, result, error)
+      if (.not. allocated(error)) call judge(case%numerics, result, error)
    end subroutine run_listed
 
    !> Keep a try for the case that later ones fail.

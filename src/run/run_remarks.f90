@@ -5,7 +5,7 @@
 !> In: numerics as given, the result of a case. Out: remarks, or an error where nothing of the result can be right.
 module camroller_run_remarks
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, kind_convergence
+   use camroller_error, only : error_t, raise, kind_convergence, kind_internal
    use camroller_asperity, only : asperity_t, mobilisation_names
    use camroller_boundary_law, only : boundary_law_names, boundary_law_t, boundary_table
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond
@@ -65,18 +65,20 @@ contains
    end subroutine judge
 
    !> Remarks on what the model takes for granted and a result contradicts.
-   subroutine judge_assumptions(case, result)
+   subroutine judge_assumptions(case, result, error)
       !> The case
       type(case_t), intent(in) :: case
       !> The result
       type(result_t), intent(inout) :: result
+      !> Internal error where the result lacks what it should have
+      type(error_t), allocatable, intent(out) :: error
 
       associate (length => case%mechanism%contact_width)
          call judge_slices(coupled_width(case%roller_profile, length), length, result)
       end associate
-      call judge_stiffness(result)
-      call judge_creep(case%asperity, allocated(case%wear), result)
-      if (allocated(case%boundary_law)) call judge_speed(case%boundary_law, result)
+      call judge_stiffness(result, error)
+      if (.not. allocated(error)) call judge_creep(case%asperity, allocated(case%wear), result, error)
+      if (allocated(case%boundary_law) .and. .not. allocated(error)) call judge_speed(case%boundary_law, result, error)
    end subroutine judge_assumptions
 
    !> Say that a roller hardly turns.
@@ -86,7 +88,7 @@ contains
 
       integer :: lobe, place
 
-      do lobe = 1, size(result%summary)
+      do lobe = 1, lobe_count(result)
          place = find_quantity(result%summary, trim(lobe_prefix(lobe))//"revolution_slip")
          if (place == 0) exit
          associate (slip => result%summary_values(place))
@@ -109,7 +111,7 @@ contains
       real(wp) :: half_width
       integer :: lobe, place
 
-      do lobe = 1, size(result%summary)
+      do lobe = 1, lobe_count(result)
          place = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"hertz_half_width")
          if (place == 0) exit
          half_width = result%summary_values(place)
@@ -122,22 +124,24 @@ contains
    end subroutine judge_slices
 
    !> Say that a train which is computed as a rigid one would vibrate.
-   subroutine judge_stiffness(result)
+   subroutine judge_stiffness(result, error)
       !> The result; gets the remark
       type(result_t), intent(inout) :: result
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
 
       ! Estimated largest load over that of a rigid train [-], natural frequency [Hz]
       real(wp) :: factor, frequency
-      type(error_t), allocatable :: error
       character(len=:), allocatable :: prefix
       integer :: lobe
 
-      do lobe = 1, size(result%summary)
+      do lobe = 1, lobe_count(result)
          prefix = trim(lobe_prefix(lobe))
          if (find_quantity(result%summary, prefix//"dynamic_load_max") > 0) exit
          if (find_quantity(result%summary, prefix//"load_factor") == 0) exit
-         call get_summary(result, prefix//"load_factor", factor, error)
-         call get_summary(result, prefix//"train_frequency", frequency, error)
+         call take_scalar(result, prefix//"load_factor", factor, error)
+         call take_scalar(result, prefix//"train_frequency", frequency, error)
+         if (allocated(error)) return
          if (.not. factor > shaken_factor) cycle
          call add_named(result, lobe, shaken_train, "the train is computed as a rigid one; with stiffness of usual size its "// &
             & "natural frequency is about "//number_text(frequency, 2)//" Hz, and its largest contact load an estimated "// &
@@ -146,28 +150,30 @@ contains
    end subroutine judge_stiffness
 
    !> Say that all slip is what regularised friction lets a roller creep, which it holds.
-   subroutine judge_creep(asperity, has_wear, result)
+   subroutine judge_creep(asperity, has_wear, result, error)
       !> Asperities of the case
       type(asperity_t), intent(in), allocatable :: asperity
       !> Does the case have wear, which goes with the slip however small it is?
       logical, intent(in) :: has_wear
       !> The result; gets the remark
       type(result_t), intent(inout) :: result
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
 
       ! Sliding speed, smallest and largest [m/s]; mean slip [-]
       real(wp) :: speeds(2), slip
-      type(error_t), allocatable :: error
       character(len=:), allocatable :: prefix
       integer :: lobe
 
       if (.not. allocated(asperity)) return
       if (asperity%mobilisation /= mobilisation_names(1)) return
-      do lobe = 1, size(result%summary)
+      do lobe = 1, lobe_count(result)
          prefix = trim(lobe_prefix(lobe))
          if (find_quantity(result%summary, "max_"//prefix//"sliding_speed") == 0) exit
-         call get_summary(result, "min_"//prefix//"sliding_speed", speeds(1), error)
-         call get_summary(result, "max_"//prefix//"sliding_speed", speeds(2), error)
-         call get_summary(result, "mean_"//prefix//"slip_ratio", slip, error)
+         call take_scalar(result, "min_"//prefix//"sliding_speed", speeds(1), error)
+         call take_scalar(result, "max_"//prefix//"sliding_speed", speeds(2), error)
+         call take_scalar(result, "mean_"//prefix//"slip_ratio", slip, error)
+         if (allocated(error)) return
          if (.not. (maxval(abs(speeds)) < asperity%mobilising_speed .and. (has_wear .or. abs(slip) > notable_slip))) cycle
          call add_named(result, lobe, creeping_roller, "the roller slides by less than asperity.mobilising_speed_m_s ("// &
             & number_text(asperity%mobilising_speed, 3)//") all round the cam, up to "//number_text(maxval(abs(speeds)), 3)// &
@@ -177,15 +183,16 @@ contains
    end subroutine judge_creep
 
    !> Say that the roller slides all round more slowly than a law of boundary friction has values for.
-   subroutine judge_speed(law, result)
+   subroutine judge_speed(law, result, error)
       !> The law
       type(boundary_law_t), intent(in) :: law
       !> The result; gets the remark
       type(result_t), intent(inout) :: result
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
 
       ! Sliding speed, smallest and largest, lowest of the law [m/s]
       real(wp) :: speeds(2), lowest
-      type(error_t), allocatable :: error
       character(len=:), allocatable :: prefix, words
       integer :: lobe
 
@@ -195,11 +202,12 @@ contains
          lowest = law%speed_points(1)
          words = "first speed of the table, whose coefficient holds below it"
       end if
-      do lobe = 1, size(result%summary)
+      do lobe = 1, lobe_count(result)
          prefix = trim(lobe_prefix(lobe))
          if (find_quantity(result%summary, "max_"//prefix//"sliding_speed") == 0) exit
-         call get_summary(result, "min_"//prefix//"sliding_speed", speeds(1), error)
-         call get_summary(result, "max_"//prefix//"sliding_speed", speeds(2), error)
+         call take_scalar(result, "min_"//prefix//"sliding_speed", speeds(1), error)
+         call take_scalar(result, "max_"//prefix//"sliding_speed", speeds(2), error)
+         if (allocated(error)) return
          if (maxval(abs(speeds)) >= lowest) cycle
          call add_named(result, lobe, foreign_speed, "the roller slides by "//number_text(maxval(abs(speeds)), 3)// &
             & " m/s at most, all round below "//number_text(lowest, 3)//" m/s, the "//words//": &boundary_law says nothing "// &
@@ -214,7 +222,7 @@ contains
 
       integer :: lobe, place
 
-      do lobe = 1, size(result%summary)
+      do lobe = 1, lobe_count(result)
          place = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"film_ratio")
          if (place == 0) exit
          associate (ratio => result%summary_values(place))
@@ -227,40 +235,30 @@ contains
    end subroutine judge_growth
 
    !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
-   subroutine judge_wear(result)
+   subroutine judge_wear(result, error)
       !> The result, with what hours of running have worn away; gets the remark
       type(result_t), intent(inout) :: result
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
 
       ! Lift of the valve, depths worn away from cam and roller [m]
       real(wp) :: values(3)
+      character(len=:), allocatable :: prefix
       integer :: lobe
 
-      do lobe = 1, size(result%summary)
-         if (find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"cam_wear_depth") == 0) exit
-         call find_value("max_", "valve_lift", values(1))
-         call find_value("max_", "cam_wear_depth", values(2))
-         call find_value("", "roller_wear_depth", values(3))
+      do lobe = 1, lobe_count(result)
+         prefix = trim(lobe_prefix(lobe))
+         if (find_quantity(result%summary, "max_"//prefix//"cam_wear_depth") == 0) exit
+         call take_scalar(result, "max_"//prefix//"valve_lift", values(1), error)
+         call take_scalar(result, "max_"//prefix//"cam_wear_depth", values(2), error)
+         call take_scalar(result, prefix//"roller_wear_depth", values(3), error)
+         if (allocated(error)) return
          if (maxval(values(2:)) <= deep_part*values(1)) cycle
          call add_named(result, lobe, deep_wear, "the hours of running wear up to "//number_text(1.0e3_wp*values(2), 3)// &
             & " mm away from the cam and "//number_text(1.0e3_wp*values(3), 3)//" mm from the roller, which lift the valve by "// &
             & number_text(1.0e3_wp*values(1), 3)//" mm; lift and radii are those of new parts here, and loads are not those of "// &
             & "worn ones; are wear rates, in mm^3/(N m), and hours right?", maxval(values(2:))/values(1))
       end do
-
-   contains
-
-      !> A scalar of the lobe.
-      subroutine find_value(statistic, series, value)
-         !> What of a series, its name
-         character(len=*), intent(in) :: statistic, series
-         !> The value [m]
-         real(wp), intent(out) :: value
-
-         type(error_t), allocatable :: ignored
-
-         call get_summary(result, statistic//trim(lobe_prefix(lobe))//series, value, ignored)
-      end subroutine find_value
-
    end subroutine judge_wear
 
    !> Add a remark, with the name of its lobe shape where there are several.
@@ -276,16 +274,43 @@ contains
       !> Severity [-]
       real(wp), intent(in) :: size
 
-      logical :: has_several
-
-      has_several = find_quantity(result%summary, trim(lobe_prefix(2))//"revolution_slip") > 0
-      if (has_several) then
+      if (lobe_count(result) > 1) then
          call add_remark(result%remarks, kind, trim(lobe_scope(lobe))//": "//text, size)
          result%remarks(ubound(result%remarks, 1))%lobe = lobe
       else
          call add_remark(result%remarks, kind, text, size)
       end if
    end subroutine add_named
+
+   !> Number of lobe shapes of a result.
+   pure function lobe_count(result) result(lobes)
+      !> The result
+      type(result_t), intent(in) :: result
+      !> The number
+      integer :: lobes
+
+      lobes = 0
+      do while (find_quantity(result%summary, trim(lobe_prefix(lobes + 1))//"revolution_slip") > 0)
+         lobes = lobes + 1
+      end do
+   end function lobe_count
+
+   !> A scalar that a result should have.
+   subroutine take_scalar(result, name, value, error)
+      !> The result
+      type(result_t), intent(in) :: result
+      !> Name of the scalar
+      character(len=*), intent(in) :: name
+      !> Its value [unit of the scalar]
+      real(wp), intent(out) :: value
+      !> Internal error where the result lacks it, or one that is there already
+      type(error_t), allocatable, intent(inout) :: error
+
+      value = 0.0_wp
+      if (allocated(error)) return
+      call get_summary(result, name, value, error)
+      if (allocated(error)) error%kind = kind_internal
+   end subroutine take_scalar
 
    !> Remarks on an accuracy that was not reached, or an error where nothing of the result can be right.
    subroutine judge_accuracy(result, accuracy, estimates, error)

@@ -3,7 +3,7 @@ module test_result_remarks
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, degree, two_pi
    use camroller_bearing_asperity, only : bearing_asperity_t
-   use camroller_error, only : error_t, kind_domain
+   use camroller_error, only : error_t, kind_domain, kind_internal
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
    use camroller_number_text, only : number_text
@@ -12,6 +12,7 @@ module test_result_remarks
    use camroller_lubricant, only : get_oil, lubricant_t, oil_t
    use camroller_result, only : find_quantity, get_summary, result_t
    use camroller_run, only : run_case
+   use camroller_run_remarks, only : judge_assumptions
    use closeness, only : expect_error
    use lobe_cases, only : fast, low_lift, run, thesis_lift, two_lobes
    use reference_cases, only : add_pin_film, thesis_case, set_point, point_speeds, point_viscosities
@@ -37,7 +38,8 @@ contains
          new_unittest("an orbit beyond the eccentricities of its fit gives a remark", test_far_orbit), &
          new_unittest("a rough film gives a remark with asperities of Greenwood and Tripp, not with its own", test_asperities), &
          new_unittest("roughness and hardness beyond those of a rough film's paper give a remark, or refuse the case", &
-            & test_rough_range) &
+            & test_rough_range), &
+         new_unittest("a scalar that a remark needs and a result lacks is an error", test_lacking) &
          ]
    end subroutine collect_result_remarks
 
@@ -426,5 +428,19 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_rough_range
+
+   subroutine test_lacking(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      call run(case, result, error)
+      if (allocated(error)) return
+      result%summary(find_quantity(result%summary, "train_frequency"))%name = "another"
+      call judge_assumptions(case, result, failure)
+      call expect_error(error, failure, kind_internal, "train_frequency")
+   end subroutine test_lacking
 
 end module test_result_remarks
