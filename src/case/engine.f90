@@ -2,12 +2,12 @@
 !>
 !> In: what a case says. Out: phases of cams, crank angles, the speed in words.
 module camroller_engine
-   use camroller_kinds, only : wp, two_pi, per_minute
+   use camroller_kinds, only : wp, pi, two_pi, per_minute
    use camroller_number_text, only : append_number
    implicit none
    private
 
-   public :: engine_t, cam_turns, lobe_lag, cam_phases_of, crank_angle_at_nose, speed_names, write_speed
+   public :: engine_t, cam_turns, from_firing, lobe_lag, cam_phases_of, crank_angle_at_nose, speed_names, write_speed
 
    !> Whose speed a deck gives
    character(len=*), parameter :: speed_names(*) = [character(len=10) :: "crankshaft", "camshaft"]
@@ -41,6 +41,22 @@ contains
 
       turns = 0.5_wp*engine%strokes
    end function cam_turns
+
+   !> Crank angle from the nearest firing dead centre of a cylinder.
+   elemental function from_firing(angle, strokes) result(distance)
+      !> Crank angle from any of its firing dead centres [rad]
+      real(wp), intent(in) :: angle
+      !> Strokes of a working cycle
+      integer, intent(in) :: strokes
+      !> The distance, negative before it [rad]
+      real(wp) :: distance
+
+      ! Crank angle of a working cycle [rad]
+      real(wp) :: cycle_angle
+
+      cycle_angle = pi*strokes
+      distance = modulo(angle + 0.5_wp*cycle_angle, cycle_angle) - 0.5_wp*cycle_angle
+   end function from_firing
 
    !> By how much full lift of a lobe shape follows that of the first on valves of the same cylinder. Cam angles grow with time for
    !> either sense of rotation, so that it does not matter here.

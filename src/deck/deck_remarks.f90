@@ -8,6 +8,7 @@ module camroller_deck_remarks
    use camroller_number_text, only : number_text, is_number
    use camroller_mistakes, only : add_line, line_t, shown
    use camroller_text_list, only : text_at
+   use camroller_deck_engine, only : strokes_of
    use camroller_deck_text, only : to_lower
    use camroller_deck_schema, only : key_length, key_t, range_t, type_number, type_numbers
    use camroller_deck_values, only : read_value, value_t
@@ -130,14 +131,10 @@ contains
       !> Usual range; in: of the camshaft's speed
       type(range_t), intent(inout) :: usual
 
-      integer :: strokes
-
       if (.not. has_group(deck%settings, "engine")) return
       if (get_word(deck%settings, "engine", "given_speed") /= speed_names(1)) return
-      strokes = 4
-      call take(deck%settings, "engine", "strokes", strokes)
-      usual%smallest = 0.5_wp*strokes*usual%smallest
-      usual%largest = 0.5_wp*strokes*usual%largest
+      usual%smallest = 0.5_wp*strokes_of(deck%settings)*usual%smallest
+      usual%largest = 0.5_wp*strokes_of(deck%settings)*usual%largest
    end subroutine take_crank_speed
 
    !> Name of a key with its group.

@@ -3,8 +3,10 @@
 !>
 !> In: settings and a table. Out: sentences. Nothing is refused for them.
 module camroller_deck_table_remarks
+   use camroller_deck_engine, only : strokes_of
    use camroller_deck_tables, only : get_lift_table, get_pressure_table
-   use camroller_kinds, only : degree, pi, wp
+   use camroller_engine, only : from_firing
+   use camroller_kinds, only : degree, wp
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, find_outlier, lift_noise_t
    use camroller_mistakes, only : add_line, line_t
@@ -186,20 +188,15 @@ contains
       ! Gauge pressure that only combustion has [Pa]; crank angle from the dead centre of firing, within which it is at its largest
       ! in any engine [rad]
       real(wp), parameter :: of_combustion = 1.0e6_wp, far = 60.0_wp*degree
-      ! Cam angle from full lift [rad], pressure [Pa], crank angles of full lift, of a working cycle, of the largest pressure [rad]
+      ! Cam angle from full lift [rad], pressure [Pa], crank angles of full lift, of the largest pressure [rad]
       real(wp), allocatable :: angle(:), pressure(:), full_lift(:)
-      real(wp) :: cycle_angle, place
-      integer :: strokes
+      real(wp) :: place
 
       if (.not. is_known(settings, "engine", "full_lift_deg")) return
       call take(settings, "engine", "full_lift_deg", full_lift)
-      strokes = 4
-      call take(settings, "engine", "strokes", strokes)
-      cycle_angle = pi*strokes
       call get_pressure_table(settings, table, angle, pressure)
       if (maxval(pressure) < of_combustion .or. size(full_lift) == 0) return
-      place = full_lift(1) + 0.5_wp*strokes*angle(maxloc(pressure, 1))
-      place = modulo(place + 0.5_wp*cycle_angle, cycle_angle) - 0.5_wp*cycle_angle
+      place = from_firing(full_lift(1) + 0.5_wp*strokes_of(settings)*angle(maxloc(pressure, 1)), strokes_of(settings))
       if (abs(place) <= far) return
       call add_line(remarks, table%path//": the largest pressure, "//number_text(1.0e-6_wp*maxval(pressure), 4)//" MPa, is "// &
          & number_text(abs(place)/degree, 3)//" degrees of crank angle "//trim(merge("before", "behind", place < 0.0_wp))// &

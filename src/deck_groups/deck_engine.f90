@@ -14,7 +14,7 @@ module camroller_deck_engine
    implicit none
    private
 
-   public :: add_engine_keys, check_engine, fill_engine
+   public :: add_engine_keys, check_engine, fill_engine, strokes_of
 
    character(len=*), parameter :: group = "engine", bearings = "cam_bearings"
 
@@ -42,6 +42,19 @@ contains
          & example="470, 250")
    end subroutine add_engine_keys
 
+   !> Strokes of a working cycle.
+   function strokes_of(settings) result(strokes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> So many
+      integer :: strokes
+
+      type(engine_t) :: standard
+
+      strokes = standard%strokes
+      call take(settings, group, "strokes", strokes)
+   end function strokes_of
+
    !> Rules that tie the engine to its camshafts.
    subroutine check_engine(settings, mistakes)
       !> The settings
@@ -54,7 +67,7 @@ contains
       real(wp), allocatable :: full_lift(:)
       ! [m]
       real(wp), allocatable :: positions(:)
-      integer :: cylinders, camshafts, strokes, shapes, i
+      integer :: cylinders, camshafts, shapes, i
 
       if (.not. has_group(settings, group)) then
          if (is_known(settings, bearings, "cam_cylinders")) call complain(mistakes, settings, bearings, "cam_cylinders", &
@@ -66,14 +79,12 @@ contains
          return
       end if
       if (has_no([character(len=13) :: "cylinders", "firing_order", "full_lift_deg"])) return
-      strokes = 4
       camshafts = 1
-      call take(settings, group, "strokes", strokes)
       call take(settings, group, "camshafts", camshafts)
       call take(settings, group, "cylinders", cylinders)
       call take(settings, group, "firing_order", order)
       call take(settings, group, "full_lift_deg", full_lift)
-      if (strokes == 3) call complain(mistakes, settings, group, "strokes", "'strokes' is 2 or 4")
+      if (strokes_of(settings) == 3) call complain(mistakes, settings, group, "strokes", "'strokes' is 2 or 4")
       if (size(order) /= cylinders) then
          call complain(mistakes, settings, group, "firing_order", "'firing_order' has "//integer_text(size(order))// &
             & " entries for "//counted(cylinders, "cylinder"))

@@ -4,6 +4,8 @@
 !> that no train can have at all are mistakes of their own groups.
 module camroller_deck_sense
    use camroller_kinds, only : wp, pi, degree
+   use camroller_deck_engine, only : strokes_of
+   use camroller_engine, only : from_firing
    use camroller_mistakes, only : add_line, line_t
    use camroller_needle, only : kind_needles, roller_bearing_names
    use camroller_number_text, only : counted, integer_text, number_text
@@ -297,24 +299,22 @@ contains
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Crank angles of full lift, and of a working cycle [rad]
+      ! Crank angles of full lift [rad]
       real(wp), allocatable :: full_lift(:)
-      real(wp) :: cycle_angle
       ! Nearest to firing that a valve of a four-stroke engine is wide open: exhaust valves begin to open there [rad]
       real(wp), parameter :: near_firing = 120.0_wp*degree
       integer, allocatable :: cylinders_of_cams(:)
-      integer :: cylinders, strokes, i, idle
+      integer :: cylinders, i, idle
 
       if (.not. (has_group(settings, "engine") .and. has_group(settings, "cam_bearings"))) return
-      strokes = 4
-      call take(settings, "engine", "strokes", strokes)
-      if (strokes == 4 .and. is_known(settings, "engine", "full_lift_deg") .and. .not. any(left_out == "engine.full_lift_deg")) then
+      if (strokes_of(settings) == 4 .and. is_known(settings, "engine", "full_lift_deg") .and. &
+         & .not. any(left_out == "engine.full_lift_deg")) then
          call take(settings, "engine", "full_lift_deg", full_lift)
-         cycle_angle = pi*strokes
          do i = 1, size(full_lift)
-            if (abs(modulo(full_lift(i) + 0.5_wp*cycle_angle, cycle_angle) - 0.5_wp*cycle_angle) >= near_firing) cycle
+            if (abs(from_firing(full_lift(i), strokes_of(settings))) >= near_firing) cycle
             call add_line(remarks, "engine.full_lift_deg = "//number_text(full_lift(i)/degree, digits)// &
-               & ": a valve would be wide open within "//number_text(near_firing/degree, digits)//" degrees of the firing of its cylinder, from which full lift counts")
+               & ": a valve would be wide open within "//number_text(near_firing/degree, digits)//" degrees of the "// &
+               & "firing of its cylinder, from which full lift counts")
             exit
          end do
       end if
