@@ -13,6 +13,7 @@ module camroller_rerun_command
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, override_t, add_override, parse_deck
    use camroller_deck_sweep, only : sweep_size
+   use camroller_deck_sweep_keys, only : series_all, series_choice, series_chosen
    use camroller_deck_files, only : list_case_tables
    use camroller_deck_tables, only : deck_tables_t, kept_table_t, table_groups
    use camroller_ehl_rerun, only : rerun_contacts
@@ -27,7 +28,7 @@ module camroller_rerun_command
    use camroller_quotes, only : in_quotes
    use camroller_result_columns, only : check_has_cases, holds_contacts_alone
    use camroller_run_facts, only : find_other_build
-   use camroller_settings, only : get_word, take
+   use camroller_settings, only : take
    use camroller_sorting, only : find_order
    use camroller_streams, only : print_lines
    use camroller_stop_signal, only : heed_stop_signals
@@ -262,13 +263,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=member_length), allocatable :: names(:)
-      character(len=:), allocatable :: choice
+      integer :: choice
 
       call list_members(file, "/series", names, error)
       if (allocated(error)) return
       allocate (loop%series_cases(0))
-      choice = "all"
-      if (get_word(deck%settings, "sweep", "series") == "chosen") choice = "chosen"
+      choice = series_all
+      if (series_choice(deck%settings) == series_chosen) choice = series_chosen
       call take(deck%settings, "sweep", "series_cases", loop%series_cases)
       if (size(names) > 0) loop%series = choice
       loop%profiles = choice

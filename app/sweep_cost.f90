@@ -13,6 +13,7 @@ module camroller_sweep_cost
    use camroller_deck, only : deck_t, make_sweep_case
    use camroller_deck_document, only : echo_t, get_echo
    use camroller_deck_sweep, only : sweep_size
+   use camroller_deck_sweep_keys, only : series_all, series_choice, series_chosen, series_none
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
    use camroller_number_text, only : integer_text, number_text
@@ -20,7 +21,7 @@ module camroller_sweep_cost
    use camroller_remarks, only : remark_lines
    use camroller_result, only : result_t
    use camroller_run, only : run_case
-   use camroller_settings, only : get_word, take
+   use camroller_settings, only : take
    implicit none
    private
 
@@ -61,15 +62,14 @@ contains
       character(len=:), allocatable, intent(out) :: text
 
       type(cost_t) :: cost
-      character(len=:), allocatable :: series
       integer, allocatable :: chosen(:)
-      integer :: cases, cores
+      integer :: series, cases, cores
       type(echo_t) :: echo
       ! Of the sweep, with the series of every case; what a file of either has whatever the number of cases [byte]
       real(wp) :: space, space_with_series, fixed, fixed_with_series
 
-      series = get_word(deck%settings, "sweep", "series")
-      call try_cases(deck, series == "all" .or. series == "chosen", cost)
+      series = series_choice(deck%settings)
+      call try_cases(deck, series /= series_none, cost)
       cases = sweep_size(deck%sweep)
       cores = number_of_cores()
       text = "! tried "//integer_text(cost%trials)//" of the cases"
@@ -79,8 +79,8 @@ contains
          & " for all in one thread, "//time_in_words(cost%time*cases/cores)//" in "//integer_text(cores)//new_line("a")
       space = (number_size*cost%words + cost%remarks)*cases
       space_with_series = (number_size*cost%words_with_series + cost%remarks)*cases
-      if (series == "all") space = space_with_series
-      if (series == "chosen") then
+      if (series == series_all) space = space_with_series
+      if (series == series_chosen) then
          allocate (chosen(0))
          call take(deck%settings, "sweep", "series_cases", chosen)
          space = space + number_size*real(cost%words_with_series - cost%words, wp)*size(chosen)
@@ -88,7 +88,7 @@ contains
       call get_echo(deck, echo)
       fixed = entry_size*(size(echo%keys) + cost%scalars) + len(deck%text)
       fixed_with_series = fixed + entry_size*cost%series
-      if (series == "all" .or. series == "chosen") fixed = fixed_with_series
+      if (series /= series_none) fixed = fixed_with_series
       text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on disk about "// &
          & megabytes(space)//" in parts while it runs, and "//megabytes(space + fixed)//" more for the result file at the end"// &
          & new_line("a")

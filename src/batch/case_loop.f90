@@ -18,6 +18,7 @@ module camroller_case_loop
    use camroller_case_sink, only : name_layout, sink_t
    use camroller_deck, only : deck_t, is_read, make_sweep_case
    use camroller_deck_sweep, only : case_in_words, sweep_size, get_values_beside
+   use camroller_deck_sweep_keys, only : series_all, series_chosen, series_none
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
    use camroller_effect_words, only : choice_in_words
@@ -59,9 +60,9 @@ module camroller_case_loop
       !> Threads of this process
       integer :: threads = 1
       !> Series of which cases are kept: none, those listed, all
-      character(len=8) :: series = "none"
+      integer :: series = series_none
       !> Profiles across the contact of which cases are kept, where they ask for them: none, those listed, all
-      character(len=8) :: profiles = "none"
+      integer :: profiles = series_none
       !> Cases whose series and profiles are kept, from 0
       integer, allocatable :: series_cases(:)
       !> Clock at which the loop has to end; 0 for no limit
@@ -132,7 +133,7 @@ contains
       if (present(threads)) loop%threads = threads
       call set_threads(loop, loop%threads, error)
       if (allocated(error)) return
-      if (present(with_series)) loop%series = merge("all ", "none", with_series)
+      if (present(with_series)) loop%series = merge(series_all, series_none, with_series)
       runs%first = [1]
       runs%count = [sweep_size(deck%sweep)]
       call compute_cases(loop, deck, runs, sink, alone, follower, error)
@@ -384,14 +385,14 @@ contains
       !> How the loop runs
       type(loop_t), intent(in) :: loop
       !> Of which cases they are kept
-      character(len=*), intent(in) :: choice
+      integer, intent(in) :: choice
       !> Number of the case, from 0
       integer, intent(in) :: number
       !> Are they?
       logical :: verdict
 
-      verdict = choice == "all"
-      if (choice == "chosen") verdict = any(loop%series_cases == number)
+      verdict = choice == series_all
+      if (choice == series_chosen) verdict = any(loop%series_cases == number)
    end function is_kept
 
    !> Number of the layout of a result.

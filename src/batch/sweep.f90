@@ -12,6 +12,7 @@ module camroller_sweep
    use camroller_case_writer, only : abandon_cases, case_writer_t, close_cases
    use camroller_deck, only : add_places, deck_t, is_read
    use camroller_deck_files, only : list_deck_files
+   use camroller_deck_sweep_keys, only : series_all, series_choice, series_none
    use camroller_earlier_result, only : complete_there, earlier_t, look_at_earlier, other_there, partial_there
    use camroller_hdf5_status, only : keep_printing, printing_t, restore_printing
    use camroller_mistakes, only : line_t
@@ -26,7 +27,7 @@ module camroller_sweep
    use camroller_result_claim, only : remove_left_lock
    use camroller_run_facts, only : study_facts
    use camroller_settings, only : take
-   use camroller_sweep_file, only : conclude, make_result, open_result, refuse_other, scan_all, series_choice, study_t, &
+   use camroller_sweep_file, only : conclude, make_result, open_result, refuse_other, scan_all, study_t, &
       & sweep_made, sweep_options_t, sweep_report_t, sweep_shard_done, sweep_was_complete, tell_damages
    use camroller_team, only : agreed_code, team_t
    implicit none
@@ -133,7 +134,7 @@ contains
       study%runs%count = [study%last - study%first + 1]
       with_profiles = .false.
       call take(deck%settings, "ehl", "profiles", with_profiles)
-      if (options%is_direct .or. .not. with_profiles .or. series_choice(deck) /= "none") return
+      if (options%is_direct .or. .not. with_profiles .or. series_choice(deck%settings) /= series_none) return
       call raise(error, kind_deck, "'ehl.profiles' has no cases: a sweep keeps profiles of the cases whose series it keeps, "// &
          & "1.6 MB each at 720 cam angles; choose them by 'sweep.series', or leave 'ehl.profiles' out")
    end subroutine begin_study
@@ -159,8 +160,8 @@ contains
       call set_threads(loop, 1, error)
       if (.not. allocated(error)) call open_result(writer, study, deck, .true., error)
       if (allocated(error)) return
-      loop%series = "all"
-      loop%profiles = "all"
+      loop%series = series_all
+      loop%profiles = series_all
       call compute_cases(loop, deck, study%runs, writer, team, monitor, error)
       call monitor%end_cases()
       if (.not. allocated(error) .and. loop%ended /= ended_all) then
@@ -308,7 +309,7 @@ contains
       type(error_t), allocatable :: last
       real(wp) :: limit ! [s]
 
-      loop%series = series_choice(deck)
+      loop%series = series_choice(deck%settings)
       loop%profiles = loop%series
       allocate (loop%series_cases(0))
       call take(deck%settings, "sweep", "series_cases", loop%series_cases)

@@ -11,6 +11,7 @@ module camroller_sweep_file
    use camroller_case_writer, only : abandon_cases, case_writer_t, close_cases, open_cases, tally_t, write_missing
    use camroller_deck, only : deck_t
    use camroller_deck_sweep, only : case_in_words
+   use camroller_deck_sweep_keys, only : series_choice, series_chosen, series_none
    use camroller_earlier_result, only : complete_there, earlier_t, failures_in_words, look_at_earlier, other_there
    use camroller_mistakes, only : line_t
    use camroller_monitor, only : monitor_t
@@ -19,13 +20,13 @@ module camroller_sweep_file
    use camroller_part_file, only : find_parts, part_beginning, scan_part
    use camroller_part_scan, only : index_t, study_facts_t
    use camroller_result_claim, only : claim_result, claim_t, give_up_claim, remove_unfinished
-   use camroller_settings, only : get_word, take
+   use camroller_settings, only : take
    use camroller_system_file, only : remove_file
    implicit none
    private
 
    public :: study_t, sweep_options_t, sweep_report_t, sweep_made, sweep_was_complete, sweep_shard_done
-   public :: make_result, open_result, conclude, refuse_other, scan_all, series_choice, tell_damages
+   public :: make_result, open_result, conclude, refuse_other, scan_all, tell_damages
 
    !> How a sweep may end: without its file; the file was made; it was there with all cases; all cases of a shard are computed
    integer, parameter :: sweep_unfinished = 0, sweep_made = 1, sweep_was_complete = 2, sweep_shard_done = 3
@@ -67,17 +68,6 @@ module camroller_sweep_file
    end type study_t
 
 contains
-
-   !> Series of which cases are kept in a sweep.
-   function series_choice(deck) result(choice)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> One of the names of the key
-      character(len=:), allocatable :: choice
-
-      choice = get_word(deck%settings, "sweep", "series")
-      if (choice == "") choice = "none"
-   end function series_choice
 
    !> Index of all part files.
    subroutine scan_all(paths, facts, index, error)
@@ -127,13 +117,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(output_options_t) :: options
-      character(len=:), allocatable :: series
+      integer :: series
 
       call take(deck%settings, "output", "series", options%series)
       call take(deck%settings, "output", "compression", options%compression)
-      series = series_choice(deck)
-      if (.not. is_direct) options%series = series == "all" .or. series == "chosen"
-      call open_cases(writer, study%path, deck, study%facts, options, series == "chosen" .and. .not. is_direct, error)
+      series = series_choice(deck%settings)
+      if (.not. is_direct) options%series = series /= series_none
+      call open_cases(writer, study%path, deck, study%facts, options, series == series_chosen .and. .not. is_direct, error)
    end subroutine open_result
 
    !> The error that a study ends with where cases failed.

@@ -40,7 +40,7 @@ module camroller_case
    private
 
    public :: case_t, operating_point_t, numerics_t, selection_t, camshaft_number, has_engine, gas_force_of, check_bookkeeping, &
-      & energy_names, contact_policy_names, quasi_static, method_choices, automatic_method, select_names, &
+      & energy_names, energy_source, contact_policy_names, quasi_static, method_choices, automatic_method, select_names, &
       & select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
 
    !> Name of the model that takes the roller's spin from its quasi-static balance
@@ -49,6 +49,8 @@ module camroller_case
    character(len=name_length), parameter :: method_names(*) = [ode_method_names, quasi_static]
    !> Bookkeeping of forces and losses: closed energy balance, or as in the source thesis
    character(len=*), parameter :: energy_names(*) = [character(len=name_length) :: "consistent", "source"]
+   !> Position of that of the thesis
+   integer, parameter :: energy_source = 2
    !> What to do where cam and roller lose contact: a remark, or no result
    character(len=*), parameter :: contact_policy_names(*) = [character(len=name_length) :: "warn", "stop"]
 

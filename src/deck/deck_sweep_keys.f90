@@ -14,12 +14,14 @@ module camroller_deck_sweep_keys
    implicit none
    private
 
-   public :: add_sweep_keys, check_series, sweep_key_count
+   public :: add_sweep_keys, check_series, series_choice, sweep_key_count, series_none, series_chosen, series_all
 
    !> Keys that one sweep can vary without a table
    integer, parameter :: sweep_key_count = 8
    !> Cases whose series the command `sweep` writes
    character(len=*), parameter :: series_choice_names(*) = [character(len=name_length) :: "none", "chosen", "all"]
+   !> Places in `series_choice_names`
+   integer, parameter :: series_none = 1, series_chosen = 2, series_all = 3
 
 contains
 
@@ -37,7 +39,7 @@ contains
       call add_text(schema, "table", "file with a column for each key, named 'group.key', and a row for each case; "// &
          & "text or HDF5; kind 'table'", is_optional=.true.)
       call add_axis_keys(schema)
-      call add_name(schema, "series", series_choice_names, series_choice_names(1), &
+      call add_name(schema, "series", series_choice_names, series_choice_names(series_none), &
          & "cases whose series over the cam angle 'camroller sweep' writes; the summary is written for every case")
       call add_integers(schema, "series_cases", not_negative, "numbers of these cases, from 0; series 'chosen'", is_optional=.true.)
       call add_number(schema, "wall_time_limit_s", positive, &
@@ -45,6 +47,16 @@ contains
       call add_number(schema, "checkpoint_s", not_negative, "interval at which 'camroller sweep' flushes its "// &
          & "results to disk", default=30.0_wp)
    end subroutine add_sweep_keys
+
+   !> Series of which cases the command `sweep` writes.
+   function series_choice(settings) result(choice)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Place in `series_choice_names`; none without the group
+      integer :: choice
+
+      choice = max(series_none, findloc(series_choice_names == get_word(settings, "sweep", "series"), .true., 1))
+   end function series_choice
 
    !> Are there the cases whose series are wanted?
    subroutine check_series(settings, sweep, mistakes)

@@ -3,7 +3,7 @@
 !> In: defaults of the types; settings. Out: groups and keys in the schema; components of a case; a mistake for each broken rule.
 module camroller_deck_dynamics
    use camroller_accuracy, only : has_error_control
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, energy_names, energy_source
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_schema, only : add_group, add_integer, add_name, add_number, from_to, group_effect, not_negative, &
       & positive, range_t, schema_t
@@ -199,8 +199,8 @@ contains
       end do
       call load_is_given_once(settings, mistakes)
       if (.not. has_group(settings, "dynamics")) return
-      if (get_word(settings, "case", "energy") == "source") call complain_about_group(mistakes, settings, "dynamics", &
-         & "&dynamics needs case energy = 'consistent'")
+      if (get_word(settings, "case", "energy") == energy_names(energy_source)) call complain_about_group(mistakes, &
+         & settings, "dynamics", "&dynamics needs case energy = 'consistent'")
       if (has_group(settings, "asperity")) then
          if (get_word(settings, "asperity", "mobilisation") == "stick_slip") call complain(mistakes, settings, "asperity", &
             & "mobilisation", "'mobilisation' must be 'regularised' with &dynamics")

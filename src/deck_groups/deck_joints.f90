@@ -2,7 +2,7 @@
 !>
 !> In: schema, settings. Out: their groups and keys, the components of a case, and the rules that tie their keys together.
 module camroller_deck_joints
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, energy_names, energy_source
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_schema, only : schema_t, add_group, add_name, add_number, group_effect, not_negative, positive, &
       & proper_fraction
@@ -159,8 +159,8 @@ contains
 
       do i = 1, size(groups)
          if (.not. has_group(settings, trim(groups(i)))) cycle
-         if (i <= with_balance .and. get_word(settings, "case", "energy") == "source") call complain_about_group( &
-            & mistakes, settings, trim(groups(i)), "&"//trim(groups(i))//" needs case energy = 'consistent'")
+         if (i <= with_balance .and. get_word(settings, "case", "energy") == energy_names(energy_source)) call &
+            & complain_about_group(mistakes, settings, trim(groups(i)), "&"//trim(groups(i))//" needs case energy = 'consistent'")
          if (has_group(settings, "dynamics")) call complain_about_group(mistakes, settings, trim(groups(i)), &
             & "&"//trim(groups(i))//" is not part of a flexible train, &dynamics; leave out one of both")
          if (i <= with_coefficient) call curve_is_given(settings, trim(groups(i)), mistakes)
