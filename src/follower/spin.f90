@@ -18,7 +18,7 @@ module camroller_spin
    implicit none
    private
 
-   public :: spin_problem_t, nearby_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, slip_rate, surface_rate, &
+   public :: spin_problem_t, nearby_t, rolling_speed_slope, rolling_speed_at, slip_rate, surface_rate, &
       & film_decay_rate, decay_rate_of, full_decay_rate
 
    !> Contacts that an integration has solved: the first of it and the last, from which the next one is looked for
