@@ -4,7 +4,7 @@
 !> In: a solved case, the smallest film of each bearing at the angles of the means. Out: remarks, one line of each kind.
 module camroller_bearing_remarks
    use camroller_kinds, only : wp, two_pi
-   use camroller_bearing_asperity, only : bearing_state_t, thinnest_film
+   use camroller_bearing_asperity, only : bearing_state_t, thinnest_smooth_film
    use camroller_error, only : error_t
    use camroller_extremes, only : samples_t
    use camroller_journal, only : moves_like_finite
@@ -60,7 +60,7 @@ contains
       if (.not. allocated(solved%shaft%bearings)) return
       associate (bearings => solved%shaft%bearings, shaft => solved%shaft)
          films(1)%limit = usual_roughness
-         if (allocated(shaft%touch)) films(1)%limit = thinnest_film*shaft%touch%roughness
+         if (allocated(shaft%touch)) films(1)%limit = thinnest_smooth_film*shaft%touch%roughness
          if (has_orbits(solved%case) .and. moves_like_finite(shaft%journal)) films(2)%limit = (1.0_wp - largest_fitted) &
             & *bearings%radial_clearance
          if (.not. any(samples%values(:, :samples%count) < near*maxval(films%limit))) return
@@ -128,7 +128,7 @@ contains
       real(wp) :: scale
 
       if (has_asperities) then
-         scale = films%limit/thinnest_film
+         scale = films%limit/thinnest_smooth_film
          unit = " of the roughness"
          consequence = "; there the law for smooth surfaces leaves the film load that asperities would carry, and the friction "// &
             & "stated is too small"

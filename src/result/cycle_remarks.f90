@@ -2,7 +2,7 @@
 !>
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
-   use camroller_bearing_asperity, only : thinnest_film
+   use camroller_bearing_asperity, only : thinnest_smooth_film
    use camroller_cam_angle, only : append_cam_angle, cam_angle_text, file_angle
    use camroller_kinds, only : wp
    use camroller_engine, only : write_speed
@@ -15,7 +15,7 @@ module camroller_cycle_remarks
    use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : margins_t
-   use camroller_cycle_shares, only : liquid_stress, shear_ratio_allowed, thinnest_film_allowed => thinnest_film
+   use camroller_cycle_shares, only : liquid_stress, shear_ratio_allowed, thinnest_film
    use camroller_means, only : has_film_limit, statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
@@ -181,9 +181,9 @@ contains
 
       integer :: last
 
-      if (smallest >= thinnest_film*roughness) return
+      if (smallest >= thinnest_smooth_film*roughness) return
       call add_remark(remarks, rubbing_pin, "the film between roller and pin goes down to "//number_text(smallest/roughness, 2)// &
-         & " of their roughness; below about "//number_text(thinnest_film, 2)//" the law for smooth surfaces leaves the film "// &
+         & " of their roughness; below about "//number_text(thinnest_smooth_film, 2)//" the law for smooth surfaces leaves the film "// &
          & "load that asperities would carry, and the friction stated is too small", roughness/max(smallest, tiny(smallest)))
       if (lobe == 0) return
       last = size(remarks)
@@ -443,7 +443,7 @@ contains
       character(len=:), allocatable :: text
 
       text = "the film between cam and roller is below "
-      call append_number(text, thinnest_film_allowed, 2)
+      call append_number(text, thinnest_film, 2)
       text = text//" of the roughness for "
       call append_number(text, 100.0_wp*statistics%thin_share, 3)
       text = text//" % of the cycle, down to "
