@@ -16,7 +16,7 @@ module camroller_report
    use camroller_extremes, only : samples_t
    use camroller_follower_samples, only : contact_ahead, extend_trail, trail_t
    use camroller_lobe_curve, only : cam_values, curve_values
-   use camroller_series_extremes, only : extremes_t, find_extremes, find_lobe_extremes
+   use camroller_series_extremes, only : series_extremes_t, find_extremes, find_lobe_extremes
    use camroller_margins, only : margins_t, find_margins
    use camroller_names, only : name_length
    use camroller_oil_checks, only : find_far_points, judge_estimate
@@ -170,7 +170,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(solved_t), target :: solved
-      type(extremes_t) :: extremes
+      type(series_extremes_t) :: extremes
       ! Series of the camshaft at the angles of its means, smallest films of its bearings there
       type(samples_t) :: torque_rows, films
       ! Mean torque of the bearings of each camshaft [N m], means of series of single bearings [unit of each]

@@ -18,7 +18,7 @@ module camroller_summary
    use camroller_number_text, only : integer_text
    use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, lobe_scope, scope_camshaft, &
       & scope_engine, take_quantities
-   use camroller_series_extremes, only : extremes_t
+   use camroller_series_extremes, only : series_extremes_t
    use camroller_shaft, only : solved_t
    implicit none
    private
@@ -43,7 +43,7 @@ contains
       !> Margins of each lobe shape
       type(margins_t), intent(in) :: margins(:)
       !> Extremes of the series
-      type(extremes_t), intent(in) :: extremes
+      type(series_extremes_t), intent(in) :: extremes
       !> In: series; out: with the summary
       type(result_t), intent(inout) :: result
 
@@ -129,7 +129,7 @@ contains
       !> Series
       type(result_t), intent(in) :: result
       !> Extremes of the series
-      type(extremes_t), intent(in) :: extremes
+      type(series_extremes_t), intent(in) :: extremes
       !> Means [unit of the series]
       real(wp), intent(in) :: means(:)
       !> List of scalars
@@ -158,7 +158,7 @@ contains
       !> Means [unit of the series]
       real(wp), intent(in) :: means(:)
       !> Smallest and largest value of each series
-      type(extremes_t), intent(in) :: extremes
+      type(series_extremes_t), intent(in) :: extremes
       !> List of scalars
       type(quantity_list_t), intent(inout) :: list
 

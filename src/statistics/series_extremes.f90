@@ -1,6 +1,6 @@
 !> Smallest and largest values of the series of a case, at the stops and between the angles met as well, with their errors.
 !>
-!> In: the solved case, rows of its series, margins. Out: `extremes_t`.
+!> In: the solved case, rows of its series, margins. Out: `series_extremes_t`.
 module camroller_series_extremes
    use camroller_kinds, only : wp, two_pi
    use camroller_camshaft_statistics, only : search_camshaft
@@ -23,15 +23,15 @@ module camroller_series_extremes
    implicit none
    private
 
-   public :: extremes_t, find_extremes, find_lobe_extremes
+   public :: series_extremes_t, find_extremes, find_lobe_extremes
 
    !> Smallest and largest values
-   type :: extremes_t
+   type :: series_extremes_t
       !> Of each series [unit of the series]
       real(wp), allocatable :: lowest(:), highest(:)
       !> Smallest contact load of each lobe shape with the valve off its seat [N]
       real(wp), allocatable :: event_load(:)
-   end type extremes_t
+   end type series_extremes_t
 
    !> Error over the value that is rounding [-]
    real(wp), parameter :: rounding = 1.0e-12_wp
@@ -99,7 +99,7 @@ contains
       !> All series of the case
       type(quantity_t), intent(in) :: series(:)
       !> The extremes
-      type(extremes_t), intent(out) :: extremes
+      type(series_extremes_t), intent(out) :: extremes
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
