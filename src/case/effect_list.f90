@@ -6,7 +6,7 @@ module camroller_effect_list
    use camroller_error, only : error_t
    use camroller_names, only : name_length
    use camroller_case, only : case_t, quasi_static, automatic_method, quantity_names
-   use camroller_asperity, only : asperity_law_names, law_masjedi_khonsari_asperities => law_masjedi_khonsari
+   use camroller_asperity, only : asperity_law_names, law_masjedi_khonsari_asperities
    use camroller_film, only : film_law_names, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
    use camroller_flexible_setup, only : base_load
    use camroller_heat, only : inlet_law_names, contact_heat_names, inlet_none, contact_heat_none

@@ -17,7 +17,7 @@ module camroller_asperity
    public :: asperity_t, asperity_constants_t, asperity_law_names, boundary_names, mobilisation_names
    public :: boundary_part_t, new_boundary_part, friction_modifier_t, coverage, set_boundary_temperature
    public :: boundary_friction_t, find_boundary_friction, largest_coefficient, has_one_coefficient
-   public :: law_greenwood_tripp, law_zhao_maietta_chang, law_masjedi_khonsari, smallest_product
+   public :: law_greenwood_tripp, law_zhao_maietta_chang, law_masjedi_khonsari_asperities, smallest_product
    public :: new_asperity_constants, asperity_load_function, asperity_area_function
    public :: load_factor
 
@@ -26,7 +26,7 @@ module camroller_asperity
    character(len=*), parameter :: asperity_law_names(*) = [character(len=name_length) :: "greenwood_tripp", "zhao_maietta_chang", &
       & "masjedi_khonsari"]
    !> Their positions in the list
-   integer, parameter :: law_greenwood_tripp = 1, law_zhao_maietta_chang = 2, law_masjedi_khonsari = 3
+   integer, parameter :: law_greenwood_tripp = 1, law_zhao_maietta_chang = 2, law_masjedi_khonsari_asperities = 3
    !> Boundary friction that is counted: all of it, or what the slip mobilises
    character(len=*), parameter :: boundary_names(*) = [character(len=name_length) :: "mobilised", "full"]
    !> How slip mobilises boundary friction: growing with the sliding speed, or at once, with any part of it at rest
@@ -165,9 +165,9 @@ contains
          call raise(error, kind_deck, "materials: the asperity law 'zhao_maietta_chang' needs the hardness")
       else if (choice == law_zhao_maietta_chang .and. .not. asperity%roughness_product >= smallest_product) then
          call raise(error, kind_deck, "asperity: the law 'zhao_maietta_chang' needs a roughness product of 0.025 or more")
-      else if (choice == law_masjedi_khonsari .and. .not. has_rough_film) then
+      else if (choice == law_masjedi_khonsari_asperities .and. .not. has_rough_film) then
          call raise(error, kind_deck, "asperity: the law 'masjedi_khonsari' goes with film law 'masjedi_khonsari_rough'")
-      else if (choice == law_masjedi_khonsari .and. part%film_shear_strength > 0.0_wp) then
+      else if (choice == law_masjedi_khonsari_asperities .and. part%film_shear_strength > 0.0_wp) then
          call raise(error, kind_deck, "asperity: the law 'masjedi_khonsari' has no real area that could be sheared")
       end if
       if (allocated(error)) return
@@ -293,9 +293,9 @@ contains
             constants%area_factor = pi*product
             call new_summits(constants%summits, product, first_yield(relative, slenderness))
             constants%reach = constants%summits%reach
-         else if (asperity%law == asperity_law_names(law_masjedi_khonsari)) then
+         else if (asperity%law == asperity_law_names(law_masjedi_khonsari_asperities)) then
             ! A part of the load at any film, and no area
-            constants%law = law_masjedi_khonsari
+            constants%law = law_masjedi_khonsari_asperities
             constants%reach = huge(1.0_wp)
          else
             constants%load_factor = load_factor(product, slenderness, modulus)

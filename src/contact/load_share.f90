@@ -9,7 +9,7 @@ module camroller_load_share
    use camroller_film, only : film_line_t, film_shape_t, film_at_load, log_films_at_load, takes_whole_load, asperity_part, &
       & groups_t, warm_speed, speed_by_factor
    use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function, &
-      & law_masjedi_khonsari
+      & law_masjedi_khonsari_asperities
    implicit none
    private
 
@@ -121,7 +121,7 @@ contains
       !> Is it?
       logical :: takes_part
 
-      takes_part = asperity%law == law_masjedi_khonsari
+      takes_part = asperity%law == law_masjedi_khonsari_asperities
    end function takes_part
 
    !> Load share of a regression; it has no real area.

@@ -2,7 +2,7 @@
 !>
 !> In: schema, settings. Out: the modifier's group and keys and its component of a case; mistakes.
 module camroller_deck_asperity
-   use camroller_asperity, only : asperity_law_names, friction_modifier_t, law_masjedi_khonsari, law_zhao_maietta_chang, &
+   use camroller_asperity, only : asperity_law_names, friction_modifier_t, law_masjedi_khonsari_asperities, law_zhao_maietta_chang, &
       & smallest_product
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group, demand
@@ -80,7 +80,7 @@ contains
       real(wp) :: product, strength
       character(len=*), parameter :: law = asperity_law_names(law_zhao_maietta_chang)
 
-      if (get_word(settings, "asperity", "law") == asperity_law_names(law_masjedi_khonsari)) then
+      if (get_word(settings, "asperity", "law") == asperity_law_names(law_masjedi_khonsari_asperities)) then
          if (get_word(settings, "film", "law") /= film_law_names(law_masjedi_khonsari_rough)) call complain(mistakes, settings, &
             & "asperity", "law", "asperity law 'masjedi_khonsari' goes with film law 'masjedi_khonsari_rough'")
          strength = 0.0_wp

@@ -6,7 +6,7 @@ module test_load_share
       takes_whole_load, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
       asperity_area_function, asperity_law_names, law_greenwood_tripp, law_zhao_maietta_chang, &
-      law_regression => law_masjedi_khonsari
+      law_regression => law_masjedi_khonsari_asperities
    use camroller_load_share, only : share_t, share_change_t, share_load, share_change, improve_share
    implicit none
    private
