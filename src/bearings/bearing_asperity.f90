@@ -23,7 +23,7 @@ module camroller_bearing_asperity
    implicit none
    private
 
-   public :: bearing_asperity_t, touch_t, bearing_state_t, balance_t, new_touch, carry_load, balance_load, asperity_forces, &
+   public :: bearing_asperity_t, bearing_touch_t, bearing_state_t, balance_t, new_touch, carry_load, balance_load, asperity_forces, &
       & tabulated_forces, clearance_is_enough, clearance_advice, thinnest_smooth_film
 
    !> Film over roughness below which the law of smooth surfaces lets the film carry what asperities would [-]
@@ -50,7 +50,7 @@ module camroller_bearing_asperity
    integer, parameter :: pieces = 8, terms = 14
 
    !> Surfaces made ready
-   type :: touch_t
+   type :: bearing_touch_t
       !> Roughness [m]
       real(wp) :: roughness = 0.0_wp
       !> Pressure of the asperities over F_5/2 [Pa]
@@ -63,7 +63,7 @@ module camroller_bearing_asperity
       !> ratio H: coefficients of the powers of the place in a piece, from -1 to 1, of force times exp(H^2/2), which hardly varies;
       !> shape (term, piece) [-]
       real(wp), dimension(terms, pieces) :: along = 0.0_wp, normal = 0.0_wp
-   end type touch_t
+   end type bearing_touch_t
 
    !> Film and asperities at one eccentricity
    type :: balance_t
@@ -101,7 +101,7 @@ contains
    !> Make surfaces ready.
    subroutine new_touch(touch, surfaces, clearance, error)
       !> The surfaces
-      type(touch_t), intent(out) :: touch
+      type(bearing_touch_t), intent(out) :: touch
       !> What is given
       type(bearing_asperity_t), intent(in) :: surfaces
       !> Radial clearance [m]
@@ -130,7 +130,7 @@ contains
    !> forces at the zeros of Chebyshev's. The equations are the same for every bearing, and regular.
    pure subroutine tabulate_forces(touch, clearance)
       !> The surfaces; get the tables
-      type(touch_t), intent(inout) :: touch
+      type(bearing_touch_t), intent(inout) :: touch
       !> Radial clearance [m]
       real(wp), intent(in) :: clearance
 
@@ -183,7 +183,7 @@ contains
       !> `journal_solved` or `journal_without_film`
       integer, intent(out) :: status
       !> Its surfaces; without them there is a film only
-      type(touch_t), intent(in), optional :: touch
+      type(bearing_touch_t), intent(in), optional :: touch
 
       type(balance_t) :: balance
       ! Whole load, that of the film [N]; t, e/sqrt(1 - e^2), and sqrt(1 + t^2) [-]
@@ -216,7 +216,7 @@ contains
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
-      type(touch_t), intent(in) :: touch
+      type(bearing_touch_t), intent(in) :: touch
       !> Load [N]
       real(wp), intent(in) :: load
       !> e/sqrt(1 - e^2); in: that of the film alone, which stays where surfaces are apart [-]
@@ -283,7 +283,7 @@ contains
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
-      type(touch_t), intent(in) :: touch
+      type(bearing_touch_t), intent(in) :: touch
       !> Load wanted [N]
       real(wp), intent(in) :: load
       !> e/sqrt(1 - e^2) [-]
@@ -317,7 +317,7 @@ contains
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
-      type(touch_t), intent(in) :: touch
+      type(bearing_touch_t), intent(in) :: touch
       !> t [-]
       real(wp) :: t
 
@@ -333,7 +333,7 @@ contains
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
-      type(touch_t), intent(in) :: touch
+      type(bearing_touch_t), intent(in) :: touch
       !> e/sqrt(1 - e^2) [-]
       real(wp), intent(in) :: t
       !> Force along the line of centres, sum of the normal forces, their slopes [N]
@@ -377,7 +377,7 @@ contains
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
-      type(touch_t), intent(in) :: touch
+      type(bearing_touch_t), intent(in) :: touch
       !> e/sqrt(1 - e^2) [-]
       real(wp), intent(in) :: t
       !> Force along the line of centres, sum of the normal forces [N]

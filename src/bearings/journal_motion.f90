@@ -20,7 +20,7 @@
 !> direction (`test/reference/journal_reference.py`).
 module camroller_journal_motion
    use camroller_kinds, only : wp, pi
-   use camroller_bearing_asperity, only : bearing_state_t, tabulated_forces, touch_t
+   use camroller_bearing_asperity, only : bearing_state_t, tabulated_forces, bearing_touch_t
    use camroller_journal, only : journal_t, moves_like_finite
    implicit none
    private
@@ -166,7 +166,7 @@ contains
       !> Velocity [clearance/rad]
       real(wp), intent(out) :: velocity(2)
       !> Its surfaces; without them there is a film only
-      type(touch_t), intent(in), optional :: touch
+      type(bearing_touch_t), intent(in), optional :: touch
 
       ! Load of the film [N], of asperities along the line of centres, sum of their normal forces [N]
       real(wp) :: film(2), along, normal
@@ -190,7 +190,7 @@ contains
       !> Its state
       type(bearing_state_t), intent(out) :: state
       !> Its surfaces; without them there is a film only
-      type(touch_t), intent(in), optional :: touch
+      type(bearing_touch_t), intent(in), optional :: touch
 
       ! Load of the film [N], sum of normal forces of asperities [N]; radial clearance [m]
       real(wp) :: film(2), normal, clearance
@@ -219,7 +219,7 @@ contains
       !> Load of the film; of asperities, along the line of centres; sum of their normal forces [N]
       real(wp), intent(out) :: film(2), along, normal
       !> Its surfaces; without them there is a film only
-      type(touch_t), intent(in), optional :: touch
+      type(bearing_touch_t), intent(in), optional :: touch
 
       ! Eccentricity [-], direction of the line of centres [-]
       real(wp) :: e, direction(2)

@@ -5,7 +5,7 @@
 !> the next one starts at the zero of the line through the last three starts and ends (secant method in two unknowns).
 module camroller_journal_orbit
    use camroller_kinds, only : wp, two_pi
-   use camroller_bearing_asperity, only : bearing_state_t, carry_load, touch_t
+   use camroller_bearing_asperity, only : bearing_state_t, carry_load, bearing_touch_t
    use camroller_cam_angle, only : cam_angle_text
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_journal, only : film_at, film_t, journal_solved, journal_t
@@ -56,7 +56,7 @@ module camroller_journal_orbit
    !> A journal under its load; the state is its place [clearance], time the angle [rad]
    type, extends(problem_t) :: orbit_problem_t
       type(journal_t) :: journal
-      type(touch_t), allocatable :: touch
+      type(bearing_touch_t), allocatable :: touch
       !> Sense in which the shaft turns [-]
       real(wp) :: rotation = 1.0_wp
       class(bearing_load_t), pointer :: load => null()
@@ -98,7 +98,7 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
       !> Surfaces of the bearing; without them there is a film only
-      type(touch_t), intent(in), optional :: touch
+      type(bearing_touch_t), intent(in), optional :: touch
 
       type(orbit_problem_t) :: problem
       type(options_t) :: options

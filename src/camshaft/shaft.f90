@@ -21,7 +21,7 @@ module camroller_shaft
    use camroller_torque_list, only : torque_count, of_bearings, of_shaft_drag
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_solved
    use camroller_journal_motion, only : moving_state
-   use camroller_bearing_asperity, only : touch_t, bearing_state_t, new_touch, carry_load
+   use camroller_bearing_asperity, only : bearing_touch_t, bearing_state_t, new_touch, carry_load
    use camroller_bearing_heat, only : oil_flow
    use camroller_camshaft, only : bearing_shares, pull_loads
    use camroller_shaft_drag, only : shaft_drag_t, check_shaft_drag, find_shaft_drag
@@ -53,7 +53,7 @@ module camroller_shaft
       !> The first of both bearings between which each cam is
       integer, allocatable :: left(:)
       !> Their surfaces; allocated where the case has them
-      type(touch_t), allocatable :: touch
+      type(bearing_touch_t), allocatable :: touch
       !> Torque of seals and drive over speed and temperature, allocated where the case has it
       type(shaft_drag_t), allocatable :: drag_table
       !> That torque on each camshaft, zero without it [N m]

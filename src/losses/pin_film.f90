@@ -14,7 +14,7 @@ module camroller_pin_film
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length, find_name
-   use camroller_bearing_asperity, only : bearing_asperity_t, touch_t, balance_t, new_touch, balance_load
+   use camroller_bearing_asperity, only : bearing_asperity_t, bearing_touch_t, balance_t, new_touch, balance_load
    use camroller_journal, only : journal_t, find_tangent, journal_at_speed, journal_law_names, &
       & journal_solved, law_covers_width, width_advice
    implicit none
@@ -46,7 +46,7 @@ module camroller_pin_film
       !> The bearing at a viscosity of 1 Pa s and a spin of 1 rad/s
       type(journal_t) :: journal
       !> Its surfaces
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       !> Radial clearance [m]
       real(wp) :: clearance = 0.0_wp
       !> Viscosity of the oil [Pa s]

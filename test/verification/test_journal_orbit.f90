@@ -2,7 +2,7 @@
 module test_journal_orbit
    use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
    use camroller_kinds, only : wp, pi, two_pi, degree
-   use camroller_bearing_asperity, only : bearing_asperity_t, bearing_state_t, carry_load, new_touch, touch_t
+   use camroller_bearing_asperity, only : bearing_asperity_t, bearing_state_t, carry_load, new_touch, bearing_touch_t
    use camroller_case, only : case_t
    use camroller_error, only : error_t, kind_deck, kind_usage
    use camroller_journal, only : journal_at_speed, journal_law_names, journal_t
@@ -173,7 +173,7 @@ contains
    subroutine test_mixed(error)
       type(error_type), allocatable, intent(out) :: error
       type(journal_t) :: journal
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(swinging_t) :: load
       type(orbit_t) :: orbit
       type(bearing_state_t) :: state, still

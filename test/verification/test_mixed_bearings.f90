@@ -3,7 +3,7 @@ module test_mixed_bearings
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
    use camroller_bearing_asperity, only : asperity_forces, bearing_asperity_t, bearing_state_t, carry_load, new_touch, &
-      & tabulated_forces, touch_t
+      & tabulated_forces, bearing_touch_t
    use camroller_camshaft, only : belt_pull_t
    use camroller_case, only : case_t
    use camroller_error, only : error_t, kind_deck
@@ -60,7 +60,7 @@ contains
       character(len=label_length), allocatable :: laws(:)
       real(wp), allocatable :: rows(:, :)
       type(error_t), allocatable :: failure
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(bearing_state_t) :: state
       integer :: i, status
 
@@ -87,7 +87,7 @@ contains
    subroutine test_forces(error)
       type(error_type), allocatable, intent(out) :: error
       type(error_t), allocatable :: failure
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(journal_t) :: journal
       ! e/sqrt(1 - e^2) of next to no film [-]
       real(wp), parameter :: squeezed = 1.0e100_wp
@@ -124,7 +124,7 @@ contains
    subroutine test_balance(error)
       type(error_type), allocatable, intent(out) :: error
       type(error_t), allocatable :: failure
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(journal_t) :: journal
       type(bearing_state_t) :: state, before
       type(film_t) :: film
@@ -177,7 +177,7 @@ contains
       ! Smallest and largest load [N]
       real(wp), parameter :: low = 7.2_wp, high = 7.4_wp
       type(error_t), allocatable :: failure
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(journal_t) :: journal
       type(bearing_state_t) :: state, before
       integer :: i, status
@@ -202,7 +202,7 @@ contains
    subroutine test_apart(error)
       type(error_type), allocatable, intent(out) :: error
       type(error_t), allocatable :: failure
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(bearing_state_t) :: state, plain
       integer :: law, i, status
 
@@ -224,7 +224,7 @@ contains
    subroutine test_dry(error)
       type(error_type), allocatable, intent(out) :: error
       type(error_t), allocatable :: failure
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(bearing_state_t) :: state
       integer :: law, status
 
@@ -244,7 +244,7 @@ contains
    subroutine test_units(error)
       type(error_type), allocatable, intent(out) :: error
       type(error_t), allocatable :: failure
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(bearing_state_t) :: state, other
       type(bearing_asperity_t) :: rescaled
       integer :: law, i, k, status
@@ -414,7 +414,7 @@ contains
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error
       type(error_t), allocatable :: failure
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(case_t) :: case
       type(result_t) :: result
 

@@ -4,7 +4,7 @@ module test_pin_film
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_error, only : error_t, kind_deck
-   use camroller_bearing_asperity, only : bearing_asperity_t, bearing_state_t, carry_load, new_touch, touch_t
+   use camroller_bearing_asperity, only : bearing_asperity_t, bearing_state_t, carry_load, new_touch, bearing_touch_t
    use camroller_case, only : case_t
    use camroller_cycle, only : cycle_t, state_at
    use camroller_journal, only : journal_law_names, journal_solved, journal_t, journal_at_speed
@@ -116,7 +116,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(pin_part_t) :: part
       type(pin_state_t) :: pin
-      type(touch_t) :: touch
+      type(bearing_touch_t) :: touch
       type(journal_t) :: journal
       type(bearing_state_t) :: bearing
       type(error_t), allocatable :: failure
