@@ -25,7 +25,7 @@ module camroller_bearing_turn
    implicit none
    private
 
-   public :: turn_t, complete_shaft, find_turn, mean_of_turn, sample_load
+   public :: bearing_turn_t, complete_shaft, find_turn, mean_of_turn, sample_load
 
    !> Load on one bearing of a solved case
    type, extends(bearing_load_t) :: cams_load_t
@@ -38,7 +38,7 @@ module camroller_bearing_turn
    end type cams_load_t
 
    !> One bearing over the turn
-   type :: turn_t
+   type :: bearing_turn_t
       !> Start, stops and end of the turn [rad]
       real(wp), allocatable :: stops(:)
       !> Sense in which the shaft turns, 1 from the first axis of the load to the second, or -1 [-]
@@ -54,7 +54,7 @@ module camroller_bearing_turn
       !> Rise of the oil's temperature [K]
       real(wp) :: rise = 0.0_wp
       type(orbit_t) :: orbit
-   end type turn_t
+   end type bearing_turn_t
 
    !> Places of a mean in each piece of the turn
    integer, parameter :: places_of_piece = 4
@@ -70,7 +70,7 @@ contains
       !> Convergence error; deck or domain error where a bearing has no temperature
       type(error_t), allocatable, intent(out) :: error
 
-      type(turn_t), allocatable :: turns(:, :)
+      type(bearing_turn_t), allocatable :: turns(:, :)
       type(cams_load_t) :: load
       integer :: bearing, k
 
@@ -105,7 +105,7 @@ contains
       !> What loads the bearing
       class(bearing_load_t), intent(in) :: load
       !> In: stops, rotation and what may be off; out: with the bearing, its oil and orbit
-      type(turn_t), intent(inout) :: turn
+      type(bearing_turn_t), intent(inout) :: turn
       !> Convergence, deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
@@ -172,7 +172,7 @@ contains
       !> What loads the bearing
       class(bearing_load_t), intent(in) :: load
       !> In: the bearing with its oil; out: with the orbit
-      type(turn_t), intent(inout) :: turn
+      type(bearing_turn_t), intent(inout) :: turn
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -185,7 +185,7 @@ contains
       !> What loads the bearing
       class(bearing_load_t), intent(in) :: load
       !> In: stops; out: with angles, weights and loads
-      type(turn_t), intent(inout) :: turn
+      type(bearing_turn_t), intent(inout) :: turn
       !> Domain error
       type(error_t), allocatable, intent(out) :: error
 
@@ -225,7 +225,7 @@ contains
       !> What loads the bearing
       class(bearing_load_t), intent(in) :: load
       !> In: loads; out: with the rise of temperature, the bearing with its oil, the orbit
-      type(turn_t), intent(inout) :: turn
+      type(bearing_turn_t), intent(inout) :: turn
       !> Convergence, deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
@@ -309,7 +309,7 @@ contains
       !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> The bearing with its loads and orbit
-      type(turn_t), intent(in) :: turn
+      type(bearing_turn_t), intent(in) :: turn
       !> Mean torque [N m], mean flow of oil [m^3/s]
       real(wp), intent(out) :: torque, flow
       !> Domain error

@@ -7,7 +7,7 @@ module camroller_effect_bearings
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
-   use camroller_bearing_turn, only : find_turn, mean_of_turn, sample_load, turn_t
+   use camroller_bearing_turn, only : find_turn, mean_of_turn, sample_load, bearing_turn_t
    use camroller_case, only : case_t
    use camroller_effect_grid, only : points
    use camroller_effect_survey, only : survey_t
@@ -94,7 +94,7 @@ contains
       !> What the bearing has no solution for, of any kind
       type(error_t), allocatable, intent(out) :: error
 
-      type(turn_t) :: turn
+      type(bearing_turn_t) :: turn
       ! Mean flow of oil [m^3/s]
       real(wp) :: flow
 
