@@ -18,7 +18,7 @@ module camroller_ehl_command
    use camroller_ehl_converged, only : fewest_nodes, integrate_converged
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_file, only : ehl_file_t, open_ehl, write_ehl, close_ehl
-   use camroller_ehl_page, only : line_t, write_friction, write_head, write_line
+   use camroller_ehl_page, only : ehl_line_t, write_friction, write_head, write_line
    use camroller_ehl_profiles, only : plain_model
    use camroller_ehl_record, only : ehl_record_t, keep_nodes, make_ehl_record
    use camroller_ehl_summary, only : make_ehl_summary
@@ -59,7 +59,7 @@ contains
       type(case_writer_t) :: writer
       type(ehl_file_t) :: file
       type(case_t) :: case
-      type(line_t), allocatable :: lines(:)
+      type(ehl_line_t), allocatable :: lines(:)
       type(error_t), allocatable :: unheard
       character(len=:), allocatable :: path, text
 
@@ -105,7 +105,7 @@ contains
       !> Where solved contacts go
       type(ehl_file_t), intent(in) :: file
       !> What is printed of each cycle that was solved
-      type(line_t), allocatable, intent(out) :: lines(:)
+      type(ehl_line_t), allocatable, intent(out) :: lines(:)
       !> Error of the output unit: the cases go into the file all the same
       type(error_t), allocatable, intent(out) :: unheard
       !> File error
@@ -115,7 +115,7 @@ contains
       type(case_outcome_t) :: outcome
       type(layout_t) :: nothing
       type(ehl_record_t) :: record
-      type(line_t) :: line
+      type(ehl_line_t) :: line
       type(error_t), allocatable :: trouble, without_steady
       character(len=:), allocatable :: text
       integer :: i, lobe
@@ -164,7 +164,7 @@ contains
       !> Cycle on the finer grid, its profiles at the nodes of the file
       type(ehl_record_t), intent(out) :: record
       !> What is printed of it
-      type(line_t), intent(out) :: line
+      type(ehl_line_t), intent(out) :: line
       !> What went wrong, also where no two grids agree; and with steady films, which the others are compared with
       type(error_t), allocatable, intent(out) :: error, without_steady
 

@@ -8,7 +8,7 @@ module camroller_ehl_rerun
    use camroller_deck_sweep, only : sweep_size
    use camroller_ehl_command, only : angle_count, solve_case
    use camroller_ehl_file, only : sample_record
-   use camroller_ehl_page, only : line_t
+   use camroller_ehl_page, only : ehl_line_t
    use camroller_ehl_record, only : ehl_record_t
    use camroller_error, only : error_t
    use camroller_hdf5_read, only : has_member
@@ -65,7 +65,7 @@ contains
 
       type(case_t) :: case
       type(ehl_record_t) :: record, sampled
-      type(line_t) :: line
+      type(ehl_line_t) :: line
       type(remark_t), allocatable :: remarks(:)
       type(error_t), allocatable :: failure, without_steady
       character(len=:), allocatable :: group

@@ -9,7 +9,7 @@ module camroller_ehl_page
    implicit none
    private
 
-   public :: line_t, write_head, write_line, write_friction
+   public :: ehl_line_t, write_head, write_line, write_friction
 
    character(len=*), parameter :: n = new_line("a")
    !> Longest line
@@ -18,7 +18,7 @@ module camroller_ehl_page
    character(len=*), parameter :: compared(*) = [character(len=18) :: "film_min", "film_central", "rolling_resistance", "shear"]
 
    !> What is printed of a cycle
-   type :: line_t
+   type :: ehl_line_t
       !> Number of the case from 0, of the lobe shape from 1, steps of the cycle
       integer :: case_number = 0, lobe = 1, steps = 0
       !> The cycle on the coarser grid, on the finer one, with steady films
@@ -31,14 +31,14 @@ module camroller_ehl_page
       real(wp) :: friction(size(compared), 2) = 0.0_wp
    contains
       procedure :: set_friction
-   end type line_t
+   end type ehl_line_t
 
 contains
 
    !> Film and friction beside the closed formulas.
    subroutine set_friction(self, record)
       !> The line
-      class(line_t), intent(inout) :: self
+      class(ehl_line_t), intent(inout) :: self
       !> Record of the cycle
       type(ehl_record_t), intent(in) :: record
 
@@ -65,7 +65,7 @@ contains
    !> Line of the table of cycles.
    pure subroutine write_line(line, text)
       !> The cycle
-      type(line_t), intent(in) :: line
+      type(ehl_line_t), intent(in) :: line
       !> The line
       character(len=:), allocatable, intent(out) :: text
 
@@ -91,7 +91,7 @@ contains
    !> Table of film and friction beside the closed formulas.
    pure subroutine write_friction(lines, text)
       !> The cycles
-      type(line_t), intent(in) :: lines(:)
+      type(ehl_line_t), intent(in) :: lines(:)
       !> The table
       character(len=:), allocatable, intent(out) :: text
 
