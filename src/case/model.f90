@@ -23,7 +23,7 @@ module camroller_model
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at
    use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
    use camroller_film_table, only : film_table_t
-   use camroller_ehl_problem, only : largest_pressure, speed_range, load_range
+   use camroller_ehl_problem, only : largest_dry_pressure, speed_range, load_range
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : boundary_part_t, new_boundary_part, set_boundary_temperature
    use camroller_number_text, only : number_text
@@ -273,7 +273,7 @@ contains
       end do
       speeds = [max(speeds(1)*table_margins(1), speeds(2)*smallest_part, speed_range(1)), speeds(2)*table_margins(2)]
       loads = [max(loads(1)*table_margins(1), loads(2)*smallest_part, load_range(1)), &
-         & max(loads(2), min(loads(2)*table_margins(2), 2.0_wp*pi*(largest_pressure/model%modulus)**2))]
+         & max(loads(2), min(loads(2)*table_margins(2), 2.0_wp*pi*(largest_dry_pressure/model%modulus)**2))]
       if (allocated(model%film_table)) deallocate (model%film_table)
       allocate (model%film_table)
       call build_film_table(model%film_table, model%ehl, model%oil, model%modulus, speeds, loads, error)

@@ -19,7 +19,7 @@ module camroller_ehl_problem
    implicit none
    private
 
-   public :: ehl_contact_t, ehl_heat_t, ehl_problem_t, new_ehl_problem, range_text, in_range, largest_pressure, speed_range, &
+   public :: ehl_contact_t, ehl_heat_t, ehl_problem_t, new_ehl_problem, range_text, in_range, largest_dry_pressure, speed_range, &
       & load_range
    public :: log_viscosity, log_hot_viscosity, relative_density, asperity_reach, asperity_pressure, real_area_part, &
       & pressure_flow_factor, mean_gap
@@ -29,7 +29,7 @@ module camroller_ehl_problem
       & load_out_of_range = 4
 
    !> Peak pressure of the dry contact [Pa], and pressure-viscosity coefficient times it [-], up to which solutions are given
-   real(wp), parameter :: largest_pressure = 1.5e9_wp, largest_exponent = 35.0_wp
+   real(wp), parameter :: largest_dry_pressure = 1.5e9_wp, largest_exponent = 35.0_wp
    !> Groups U and W* for which solutions are given [-]; the range of the tests is a part of it
    real(wp), parameter :: speed_range(2) = [1.0e-15_wp, 1.0e-7_wp], load_range(2) = [1.0e-8_wp, 1.0e-2_wp]
    !> Density: reference pressure [Pa] and the largest ratio [-]
@@ -188,7 +188,7 @@ contains
       integer, intent(out) :: status
 
       status = in_range
-      if (.not. (pressure <= largest_pressure)) then
+      if (.not. (pressure <= largest_dry_pressure)) then
          status = pressure_out_of_range
       else if (.not. (exponent <= largest_exponent)) then
          status = exponent_out_of_range
@@ -210,7 +210,7 @@ contains
       case (in_range)
          text = "in range"
       case (pressure_out_of_range)
-         text = "peak pressure of the dry contact above "//number_text(1.0e-9_wp*largest_pressure, 3)//" GPa"
+         text = "peak pressure of the dry contact above "//number_text(1.0e-9_wp*largest_dry_pressure, 3)//" GPa"
       case (exponent_out_of_range)
          text = "pressure-viscosity coefficient times peak pressure above "//number_text(largest_exponent)
       case (speed_out_of_range)
