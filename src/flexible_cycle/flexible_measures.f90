@@ -26,7 +26,7 @@ module camroller_flexible_measures
    public :: measure_t, measures, measure_count, measure_turn, pivot_force, largest_lift, largest_load, largest_load_angle, &
       & smallest_event_load, event_pivot_force, least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, &
       & float_share, losses_of_contact, drive_torque, loss_torque, damping_torque, smallest_pivot_force, tension_share, &
-      & surge_force, coil_ratio, coil_compression, lowest_plunger, highest_plunger, largest_pressure, leak_volume, &
+      & surge_force, coil_ratio, coil_compression, lowest_plunger, highest_plunger, largest_chamber_pressure, leak_volume, &
       & check_share, residual_work, &
       & gallery_torque, event_check_share, damper_works, lift_at_nose, speed_at_nose, smallest_lift, closed_load
 
@@ -57,7 +57,7 @@ module camroller_flexible_measures
       & drive_torque = 11, loss_torque = 12, damping_torque = 13, smallest_pivot_force = 14, tension_share = 15, &
       & surge_force = 16, coil_ratio = 17, event_pivot_force = 18, lift_at_nose = 19, speed_at_nose = 20, smallest_lift = 25, &
       & seated_share = 26, closed_load = 27, coil_compression = 28, residual_work = 29, lowest_plunger = 30, highest_plunger = 31, &
-      & largest_pressure = 32, leak_volume = 33, check_share = 34, gallery_torque = 35, event_check_share = 36
+      & largest_chamber_pressure = 32, leak_volume = 33, check_share = 34, gallery_torque = 35, event_check_share = 36
    !> Places of the energies lost in the dampers, in the order of `powers_t`; the last four are of the adjuster
    integer, parameter :: damper_works(damper_count) = [21, 22, 23, 24, 37, 38, 39, 40]
 
@@ -267,7 +267,7 @@ contains
       if (size(values) == residual_work) return
       values(lowest_plunger) = min(values(lowest_plunger), now%pivot)
       values(highest_plunger) = max(values(highest_plunger), now%pivot)
-      values(largest_pressure) = max(values(largest_pressure), now%pressure)
+      values(largest_chamber_pressure) = max(values(largest_chamber_pressure), now%pressure)
       values(leak_volume) = values(leak_volume) + weight*now%flows%leak/model%speed
       values(gallery_torque) = values(gallery_torque) + weight*powers%gallery/model%speed
    end subroutine add_point
