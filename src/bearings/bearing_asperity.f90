@@ -23,8 +23,8 @@ module camroller_bearing_asperity
    implicit none
    private
 
-   public :: bearing_asperity_t, bearing_touch_t, bearing_state_t, balance_t, new_touch, carry_load, balance_load, asperity_forces, &
-      & tabulated_forces, clearance_is_enough, clearance_advice, thinnest_smooth_film
+   public :: bearing_asperity_t, bearing_touch_t, bearing_state_t, balance_t, new_touch, carry_load, balance_load, &
+      & asperity_forces, tabulated_forces, clearance_is_enough, clearance_advice, thinnest_smooth_film
 
    !> Film over roughness below which the law of smooth surfaces lets the film carry what asperities would [-]
    real(wp), parameter :: thinnest_smooth_film = 0.5_wp

@@ -2,8 +2,8 @@
 !>
 !> In: schema, settings. Out: the modifier's group and keys and its component of a case; mistakes.
 module camroller_deck_asperity
-   use camroller_asperity, only : asperity_law_names, friction_modifier_t, law_masjedi_khonsari_asperities, law_zhao_maietta_chang, &
-      & smallest_product
+   use camroller_asperity, only : asperity_law_names, friction_modifier_t, law_masjedi_khonsari_asperities, &
+      & law_zhao_maietta_chang, smallest_product
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group, demand
    use camroller_deck_schema, only : schema_t, add_group, add_number, group_effect, not_negative, positive, proper_fraction, &

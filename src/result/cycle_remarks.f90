@@ -183,8 +183,8 @@ contains
 
       if (smallest >= thinnest_smooth_film*roughness) return
       call add_remark(remarks, rubbing_pin, "the film between roller and pin goes down to "//number_text(smallest/roughness, 2)// &
-         & " of their roughness; below about "//number_text(thinnest_smooth_film, 2)//" the law for smooth surfaces leaves the film "// &
-         & "load that asperities would carry, and the friction stated is too small", roughness/max(smallest, tiny(smallest)))
+         & " of their roughness; below about "//number_text(thinnest_smooth_film, 2)//" the law for smooth surfaces leaves the "// &
+         & "film load that asperities would carry, and the friction stated is too small", roughness/max(smallest, tiny(smallest)))
       if (lobe == 0) return
       last = size(remarks)
       remarks(last)%lobe = lobe

@@ -13,7 +13,8 @@ module test_flexible_cycle
    use camroller_trajectory, only : interpolate_state
    use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, largest_load_angle, least_lift_error, &
       & losses_of_contact, seating_speed, surge_force, smallest_pivot_force, drive_torque, loss_torque, gallery_torque, &
-      & lowest_plunger, largest_chamber_pressure, leak_volume, residual_work, damper_works, damping_torque, lift_at_nose, speed_at_nose
+      & lowest_plunger, largest_chamber_pressure, leak_volume, residual_work, damper_works, damping_torque, lift_at_nose, &
+      & speed_at_nose
    use reference_cases, only : thesis_case, make_model, set_point
    use flexible_cases, only : add_dynamics
    use camroller_train_outlook, only : find_outlook, outlook_t
