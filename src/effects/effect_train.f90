@@ -6,14 +6,14 @@
 !> What parts or returns within the event is not estimated.
 module camroller_effect_train
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_contact_compliance, only : line_approach
+   use camroller_contact_compliance, only : series_approach
    use camroller_dynamics, only : moments_t
    use camroller_effect_grid, only : grid_t, points
    use camroller_error, only : error_t
    use camroller_flexible_parts, only : flexible_t
    use camroller_flexible_setup, only : find_rest, rest_t
    use camroller_kinematics, only : position_t
-   use camroller_lash_adjuster, only : relative_volume
+   use camroller_lash_adjuster, only : chamber_volume, relative_volume
    use camroller_model, only : model_t
    use camroller_pivot, only : pivot_force
    use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
@@ -161,8 +161,8 @@ contains
       leak = 0.0_wp
       press_ratio = 0.0_wp
       if (allocated(model%flexible%adjuster)) then
-         associate (given => model%flexible%adjuster%given)
-            full = (given%volume + model%flexible%adjuster%area*rest%pivot)/relative_volume(given, given%supply_pressure)
+         associate (adjuster => model%flexible%adjuster)
+            full = chamber_volume(adjuster, rest%pivot)/relative_volume(adjuster%given, adjuster%given%supply_pressure)
          end associate
          balance%oil = full
       end if
@@ -255,7 +255,7 @@ contains
       !> Approach [m]
       real(wp) :: approach
 
-      approach = line_approach(flexible%compliance, load) + load/flexible%finger_stiffness
+      approach = series_approach(flexible%compliance, flexible%finger_stiffness, load)
    end function approach_of
 
    !> Lift of the bent train: the lift that its forces make is the lift that leaves these forces.

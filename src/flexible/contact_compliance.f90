@@ -9,7 +9,8 @@ module camroller_contact_compliance
    implicit none
    private
 
-   public :: line_compliance, line_approach, series_load, series_energy, damping_factor, one_sided_force, restitution
+   public :: line_compliance, line_approach, series_approach, series_load, series_energy, damping_factor, &
+      & one_sided_force, restitution
    public :: damping_of_restitution
 
    !> Power of the load in Palmgren's approach [-]
@@ -46,6 +47,20 @@ contains
 
       approach = compliance*load**power
    end function line_approach
+
+   !> Approach of a line contact in series with a spring, `c_H W^0.9 + W/k_b`.
+   elemental function series_approach(compliance, stiffness, load) result(approach)
+      !> c_H [m/N^0.9]
+      real(wp), intent(in) :: compliance
+      !> k_b [N/m]
+      real(wp), intent(in) :: stiffness
+      !> Load, W [N]
+      real(wp), intent(in) :: load
+      !> The approach [m]
+      real(wp) :: approach
+
+      approach = line_approach(compliance, load) + load/stiffness
+   end function series_approach
 
    !> Elastic load of a line contact in series with a spring, `delta = c_H W^0.9 + W/k_b`; zero without approach.
    !>

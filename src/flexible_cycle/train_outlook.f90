@@ -7,7 +7,7 @@
 !> residual vibration behind a cam; Wahl, Mechanical Springs (1963), for surge.
 module camroller_train_outlook
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_contact_compliance, only : line_approach, series_load
+   use camroller_contact_compliance, only : series_approach, series_load
    use camroller_dynamics, only : evaluate_moments, moments_t
    use camroller_error, only : error_t
    use camroller_flexible_parts, only : dynamics_t, flexible_t, set_contacts
@@ -174,7 +174,7 @@ contains
          !> The approach [m]
          real(wp) :: way
 
-         way = flexible%compliance*load**0.9_wp + load/flexible%finger_stiffness
+         way = series_approach(flexible%compliance, flexible%finger_stiffness, load)
       end function approach
 
    end function gas_share
@@ -231,8 +231,8 @@ contains
       approach = [-position%normal_arm, 0.0_wp, -dot_product(normal, axis)]
       pad = [position%valve_arm, -1.0_wp, -cos(model%pivot%tilt)]
 
-      call series_load(flexible%compliance, flexible%finger_stiffness, line_approach(flexible%compliance, load) &
-         & + load/flexible%finger_stiffness, load, contact_stiffness)
+      call series_load(flexible%compliance, flexible%finger_stiffness, series_approach(flexible%compliance, &
+         & flexible%finger_stiffness, load), load, contact_stiffness)
       stiffness = contact_stiffness*outer(approach) + flexible%pad_stiffness*outer(pad)
       stiffness(valve, valve) = stiffness(valve, valve) + model%train%stiffness
       damping = flexible%contact_damping*load*outer(approach) + flexible%pad_damping*tip*outer(pad)
