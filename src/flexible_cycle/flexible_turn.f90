@@ -14,7 +14,8 @@ module camroller_flexible_turn
    use camroller_ode_method, only : method_t, options_t
    use camroller_ode_problem, only : counters_t
    use camroller_ode_methods, only : new_method
-   use camroller_ode_switching, only : integrate_switching, shortest_step
+   use camroller_ode_switching, only : integrate_switching
+   use camroller_step_control, only : shortest_step
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_train, only : flexible_state_t, evaluate_train, state_size, at_finger, at_sliding
    use camroller_lash_adjuster, only : bulk_modulus, evaluate_flows, flows_t

@@ -11,9 +11,9 @@ module camroller_ode
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
-   use camroller_step_control, only : control_t, next_step, shorter_step
+   use camroller_step_control, only : control_t, impossible_error, last_part, next_step, shorter_step
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_straight, append_curve, least_segment, stop_margin
-   use camroller_step_checks, only : check_step
+   use camroller_step_checks, only : check_progress, check_step
    use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
    implicit none
    private
@@ -174,7 +174,9 @@ contains
                walk%proposed = walk%step%length*shorter_step(method%error_order, walk%step%scaled_error)
             end if
          end if
-         if (.not. allocated(error)) call check_progress(problem, method, options, walk, counters, error)
+         if (walk%was_rejected .and. is_fixed(method, options) .and. .not. allocated(error)) call raise(error, kind_convergence, &
+            & "a fixed step failed at "//trim(problem%name_time(walk%step%time)))
+         if (.not. allocated(error)) call check_progress(problem, options, walk%step%time, walk%proposed, counters, error)
          if (allocated(error)) return
       end do
    end subroutine integrate_segment
@@ -225,7 +227,7 @@ contains
          call try_bridge(problem, method%here, step%time, step%state(1), step%length, method%horizon - step%time, &
             & method%tolerance(1), bridge, counters)
          if (.not. bridge%is_found) return
-         step%is_last = .not. step%time + bridge%step*(1.0_wp + 1.0e-9_wp) < method%horizon
+         step%is_last = .not. step%time + bridge%step*(1.0_wp + last_part) < method%horizon
          step%end_time = merge(method%horizon, step%time + bridge%step, step%is_last)
          call problem%linearise(step%end_time, bridge%states(2:2), method%horizon, method%there, counters, status)
          if (status /= 0) return
@@ -272,7 +274,7 @@ contains
       associate (step => walk%step, finish => method%horizon)
          step%length = min(walk%proposed, walk%max_step)
          if (.not. is_fixed(method, options)) call keep_stable(method, problem, step, counters)
-         step%is_last = step%time + step%length*(1.0_wp + 1.0e-9_wp) >= finish
+         step%is_last = step%time + step%length*(1.0_wp + last_part) >= finish
          if (step%is_last) step%length = finish - step%time
          if (.not. (step%is_last .or. is_fixed(method, options))) step%length = min(step%length, 0.5_wp*(finish - step%time))
          step%end_time = merge(finish, step%time + step%length, step%is_last)
@@ -294,15 +296,14 @@ contains
       !> 0, or negative: give up
       integer, intent(out) :: status
 
-      ! Error over tolerance that stands for an impossible trial [-]
-      real(wp), parameter :: impossible = 1.0e3_wp
-
       call method%try_step(problem, step, counters, status)
-      step%scaled_error = impossible
+      step%scaled_error = impossible_error
       if (status == 0) then
          step%scaled_error = 0.0_wp
          if (.not. is_fixed(method, options)) step%scaled_error = maxval(abs(step%estimate)/method%tolerance)
-         if (.not. all(abs(step%new_state) < huge(1.0_wp) .and. abs(step%estimate) < huge(1.0_wp))) step%scaled_error = impossible
+         if (.not. all(abs(step%new_state) < huge(1.0_wp) .and. abs(step%estimate) < huge(1.0_wp))) then
+            step%scaled_error = impossible_error
+         end if
       end if
       if (status == 0 .and. step%scaled_error <= 1.0_wp .and. .not. method%gives_rate) then
          if (method%needs_jacobian .and. step%end_time < method%horizon) then
@@ -312,7 +313,7 @@ contains
             call problem%get_rate(step%end_time, step%new_state, step%new_rate, status)
             counters%evaluations = counters%evaluations + 1
          end if
-         if (status > 0) step%scaled_error = impossible
+         if (status > 0) step%scaled_error = impossible_error
       end if
       if (status == 0 .and. step%scaled_error <= 1.0_wp) then
          call check_step(problem, method, is_fixed(method, options), step, counters)
@@ -340,34 +341,5 @@ contains
          walk%proposed = walk%step%length*factor
       end if
    end subroutine adapt_step
-
-   !> Refuse an integration that does not come on.
-   subroutine check_progress(problem, method, options, walk, counters, error)
-      !> The problem
-      class(problem_t), intent(in) :: problem
-      !> The method
-      class(method_t), intent(in) :: method
-      !> Tolerance or step
-      type(options_t), intent(in) :: options
-      !> Where the integration stands
-      type(walk_t), intent(in) :: walk
-      !> Work done
-      type(counters_t), intent(in) :: counters
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: reason
-
-      if (walk%was_rejected .and. is_fixed(method, options)) then
-         reason = "a fixed step failed"
-      else if (counters%accepted + counters%rejected > options%max_steps) then
-         reason = "the largest number of steps is reached"
-      else if (counters%evaluations > options%max_evaluations) then
-         reason = "the largest number of evaluations is reached"
-      else if (walk%proposed <= 16.0_wp*spacing(abs(walk%step%time))) then
-         reason = "the step size fell below its minimum"
-      end if
-      if (allocated(reason)) call raise(error, kind_convergence, reason//" at "//trim(problem%name_time(walk%step%time)))
-   end subroutine check_progress
 
 end module camroller_ode

@@ -11,13 +11,14 @@ module camroller_ode_switching
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
-   use camroller_step_control, only : control_t, next_step, safety, shorter_step
+   use camroller_step_control, only : control_t, impossible_error, last_part, next_step, safety, shorter_step
+   use camroller_step_checks, only : check_progress
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_straight, append_cubic, curve_state, least_segment, &
       & stop_margin
    implicit none
    private
 
-   public :: switching_problem_t, integrate_switching, shortest_step
+   public :: switching_problem_t, integrate_switching
 
    !> Most switches and markers of a problem
    integer, parameter, public :: most_switches = 4
@@ -53,13 +54,9 @@ module camroller_ode_switching
       logical :: is_cut = .false., is_located = .false., is_hop = .false.
    end type walk_t
 
-   !> Shortest step, over the distance of numbers at its time [-]
-   real(wp), parameter :: shortest_step = 16.0_wp
    !> By the last error alone: a fifth of the steps is tried again, but steps that follow two errors are shorter at the same
    !> tolerance
    type(control_t), parameter :: control = control_t(proportional=1.0_wp, integral=0.0_wp, least_error=1.0e-3_wp, max_growth=4.0_wp)
-   !> Error over tolerance of an impossible trial [-]
-   real(wp), parameter :: impossible = 1.0e3_wp
    !> Kinks this near to the end of a step are at that end, over the step [-]
    real(wp), parameter :: near_end = 1.0e-3_wp
    !> Error over tolerance of a step in which a kink makes no difference: a contact that rests at zero but for rounding would end
@@ -102,7 +99,7 @@ contains
       class(switching_problem_t), intent(in) :: problem
       !> The method, one with an error estimate
       class(method_t), intent(inout) :: method
-      !> Tolerance and steps
+      !> Tolerance and steps; `fewest_steps` is not for this, whose problems show their kinks by their switches
       type(options_t), intent(in) :: options
       !> Start, times at which the right-hand side has kinks, end; increasing [time]
       real(wp), intent(in) :: stops(:)
@@ -112,7 +109,7 @@ contains
       type(trajectory_t), intent(inout) :: trajectory
       !> Work done, added to what they hold
       type(counters_t), intent(inout) :: counters
-      !> Convergence error where a step would vanish or the number of steps is used up
+      !> Convergence error where a step would vanish or the number of steps or evaluations is used up
       type(error_t), allocatable, intent(out) :: error
       !> Step to begin with where the integration goes on from here [time]
       real(wp), intent(out), optional :: proposed
@@ -187,11 +184,7 @@ contains
                call reject_step(method, was_rejected, walk, counters)
             end if
          end if
-         if (counters%accepted + counters%rejected > options%max_steps) then
-            call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(walk%step%time)))
-         else if (walk%proposed <= shortest_step*spacing(abs(walk%step%time))) then
-            call raise(error, kind_convergence, "the step has become too small at "//trim(problem%name_time(walk%step%time)))
-         end if
+         call check_progress(problem, options, walk%step%time, walk%proposed, counters, error)
          if (allocated(error)) return
       end do
    end subroutine walk_segment
@@ -281,7 +274,7 @@ contains
             walk%whole = step%length
             if (method%needs_jacobian) call foresee_kink(problem, method, walk)
          end if
-         step%is_last = step%time + step%length*(1.0_wp + 1.0e-9_wp) >= finish
+         step%is_last = step%time + step%length*(1.0_wp + last_part) >= finish
          if (step%is_last) step%length = finish - step%time
          if (.not. step%is_last .and. step%time + 2.0_wp*step%length > finish) step%length = 0.5_wp*(finish - step%time)
          step%end_time = merge(finish, step%time + step%length, step%is_last)
@@ -379,7 +372,7 @@ contains
       walk%new_switches(:) = walk%switches
       associate (step => walk%step)
          call method%try_step(problem, step, counters, status)
-         step%scaled_error = impossible
+         step%scaled_error = impossible_error
          if (status /= 0) return
          if (.not. all(abs(step%new_state) < huge(1.0_wp) .and. abs(step%estimate) < huge(1.0_wp))) return
          associate (n => problem%switches, m => problem%switches + problem%markers)
@@ -407,7 +400,7 @@ contains
             call problem%get_rate(step%end_time, step%new_state, step%new_rate, status)
             counters%evaluations = counters%evaluations + 1
          end if
-         if (status /= 0) step%scaled_error = impossible
+         if (status /= 0) step%scaled_error = impossible_error
       end associate
    end subroutine try_step
 

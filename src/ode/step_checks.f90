@@ -4,16 +4,43 @@
 !> In: rate with its derivatives at both ends of a step, its dense output. Out: the ratio of error to tolerance, raised where a
 !> check fails.
 module camroller_step_checks
+   use camroller_error, only : error_t, kind_convergence, raise
    use camroller_kinds, only : wp
-   use camroller_ode_method, only : method_t, step_t
+   use camroller_ode_method, only : method_t, options_t, step_t
    use camroller_ode_problem, only : problem_t, linear_t, counters_t
+   use camroller_step_control, only : shortest_step
    use camroller_trajectory, only : curve_numbers, curve_state
    implicit none
    private
 
-   public :: check_step
+   public :: check_step, check_progress
 
 contains
+
+   !> Refuse an integration that does not come on.
+   subroutine check_progress(problem, options, time, proposed, counters, error)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> How many steps and evaluations it may take
+      type(options_t), intent(in) :: options
+      !> Time reached, step proposed [time]
+      real(wp), intent(in) :: time, proposed
+      !> Work done
+      type(counters_t), intent(in) :: counters
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: reason
+
+      if (counters%accepted + counters%rejected > options%max_steps) then
+         reason = "the largest number of steps is reached"
+      else if (counters%evaluations > options%max_evaluations) then
+         reason = "the largest number of evaluations is reached"
+      else if (proposed <= shortest_step*spacing(abs(time))) then
+         reason = "the step size fell below its minimum"
+      end if
+      if (allocated(reason)) call raise(error, kind_convergence, reason//" at "//trim(problem%name_time(time)))
+   end subroutine check_progress
 
    !> Raise the error of a step for which one of the checks finds a reason.
    subroutine check_step(problem, method, is_fixed, step, counters)

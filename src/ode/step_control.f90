@@ -7,7 +7,7 @@ module camroller_step_control
    implicit none
    private
 
-   public :: control_t, next_step, shorter_step, safety
+   public :: control_t, next_step, shorter_step, safety, impossible_error, shortest_step, last_part
 
    !> How steps follow errors
    type :: control_t
@@ -23,6 +23,12 @@ module camroller_step_control
    real(wp), parameter :: safety = 0.9_wp, max_shrinkage = 0.2_wp
    !> Error over tolerance below which smaller ones make no difference to a step that is tried again [-]
    real(wp), parameter :: least_error = 1.0e-3_wp
+   !> Error over tolerance that stands for an impossible trial [-]
+   real(wp), parameter :: impossible_error = 1.0e3_wp
+   !> Shortest step, over the distance of numbers at its time [-]
+   real(wp), parameter :: shortest_step = 16.0_wp
+   !> A step that would leave so much of a segment, over its own length, ends it [-]
+   real(wp), parameter :: last_part = 1.0e-9_wp
 
 contains
 

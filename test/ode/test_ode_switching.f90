@@ -2,13 +2,14 @@
 module test_ode_switching
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, two_pi, pi
-   use camroller_error, only : error_t
+   use camroller_error, only : error_t, kind_convergence
    use camroller_contact_compliance, only : one_sided_force
    use camroller_ode_problem, only : counters_t, words_length
    use camroller_ode_method, only : method_t, options_t
    use camroller_ode_methods, only : new_method
    use camroller_ode_switching, only : switching_problem_t, integrate_switching
    use camroller_trajectory, only : trajectory_t
+   use closeness, only : expect_error
    implicit none
    private
 
@@ -45,7 +46,8 @@ contains
          new_unittest("a valve bounces under its spring", test_bounce), &
          new_unittest("steps end where contacts are lost and return", test_kinks), &
          new_unittest("a contact that rests at zero but for rounding ends few steps", test_hovering), &
-         new_unittest("steps end where a marker passes whole numbers, forwards and backwards", test_markers) &
+         new_unittest("steps end where a marker passes whole numbers, forwards and backwards", test_markers), &
+         new_unittest("an integration that takes too much, or too short steps, ends with that reason", test_endings) &
          ]
    end subroutine collect_ode_switching
 
@@ -196,6 +198,36 @@ contains
          end do
       end do
    end subroutine test_markers
+
+   subroutine test_endings(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: words(*) = [character(len=48) :: "largest number of steps is reached at seat", &
+         & "largest number of evaluations is reached at seat", "step size fell below its minimum at seat"]
+      type(body_t) :: body
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(2)
+      integer :: i
+
+      body = body_t(mass=0.0432_wp, stiffness=5.0e7_wp, damping=1.0_wp, force=210.0_wp)
+      body%switches = 1
+      do i = 1, size(words)
+         options = options_t(tolerance=[1.0e-13_wp, 1.0e-8_wp], step=1.0e-7_wp)
+         if (i == 1) options%max_steps = 3
+         if (i == 2) options%max_evaluations = 3
+         if (i == 3) options%tolerance = [1.0e-40_wp, 1.0e-40_wp]
+         state = [0.0_wp, -0.3_wp]
+         counters = counters_t()
+         call new_method(method, "rodas5p", 2, failure)
+         if (.not. allocated(failure)) call integrate_switching(body, method, options, [0.0_wp, 1.5e-4_wp], state, trajectory, &
+            & counters, failure)
+         call expect_error(error, failure, kind_convergence, trim(words(i)))
+         if (allocated(error)) return
+      end do
+   end subroutine test_endings
 
    !> Rate of place and speed.
    subroutine get_rate(self, time, state, rate, status)
