@@ -28,7 +28,7 @@ module camroller_flexible_step
    use camroller_flexible_drive, only : drive_t, drive_train, take_spin, bring_to_rest
    use camroller_run, only : take_way_out
    use camroller_step_judge, only : judge_state
-   use camroller_short_piece, only : places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
+   use camroller_short_piece, only : places, lobatto_places, lobatto_weights, lobatto_error
    use camroller_follower_step, only : follower_t, inputs_t, outcome_t, piece_number, inputs_between, set_model, set_ramp, &
       & fill_outcome, joined, most_tries
    implicit none
@@ -303,8 +303,7 @@ contains
             if (allocated(error)) return
             do i = 1, torque_count
                integrals(i) = integrals(i) + length*sum(lobatto_weights*values(i, :))
-               errors(i) = errors(i) + length*sqrt(sum((lobatto_weights - simpson_weights)*values(i, :))**2 &
-                  & + sum(odd_weights*values(i, :))**2)
+               errors(i) = errors(i) + length*lobatto_error(values(i, :))
             end do
          end do
       end associate

@@ -35,7 +35,7 @@ module camroller_short_piece
    implicit none
    private
 
-   public :: integrate_short, places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
+   public :: integrate_short, places, lobatto_places, lobatto_weights, lobatto_error
 
    !> Number of places; those of Simpson's rule, those that the rule of Lobatto adds, and those inside, in the order of sampling
    integer, parameter :: places = 5, of_simpson(3) = [1, 5, 3], of_lobatto(2) = [2, 4], inside(3) = [3, 2, 4]
@@ -331,7 +331,7 @@ contains
                torques(i) = torques(i) + share*mean
                sizes(i) = sizes(i) + share*sum(weights*abs(values))
                if (weights(2) > 0.0_wp) then
-                  part_errors(i) = share*sqrt((mean - sum(simpson_weights*values))**2 + sum(odd_weights*values)**2)
+                  part_errors(i) = share*lobatto_error(values)
                else
                   part_errors(i) = share*abs(mean - sum(trapezoidal_weights*values))
                end if
@@ -445,5 +445,15 @@ contains
       contact%bearing_torque = values(2)
       contact%film_ratio = values(3)
    end function contact_at
+
+   !> Error estimate of the mean by the rule of Lobatto.
+   pure function lobatto_error(values) result(error)
+      !> Values at its places [any]
+      real(wp), intent(in) :: values(places)
+      !> The estimate [unit of the values]
+      real(wp) :: error
+
+      error = sqrt((sum(lobatto_weights*values) - sum(simpson_weights*values))**2 + sum(odd_weights*values)**2)
+   end function lobatto_error
 
 end module camroller_short_piece
