@@ -7,14 +7,12 @@
 !> Losses, gas and oil gallery are integrated over each accepted step by the rule of `short_piece`; the torque against spring,
 !> masses and oil is the change of the stored energy.
 module camroller_flexible_step
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_error, only : error_t, add_context, raise, kind_convergence
    use camroller_case, only : numerics_t
    use camroller_model, only : model_t
    use camroller_ramp, only : follow_ramp
-   use camroller_gas, only : give_pressure
    use camroller_lash_adjuster, only : set_supply
    use camroller_state, only : state_t, cam_force
    use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_roller_inertia
@@ -30,7 +28,7 @@ module camroller_flexible_step
    use camroller_step_judge, only : judge_state
    use camroller_short_piece, only : places, lobatto_places, lobatto_weights, lobatto_error
    use camroller_follower_step, only : follower_t, inputs_t, outcome_t, piece_number, inputs_between, set_model, set_ramp, &
-      & fill_outcome, joined, most_tries
+      & fill_outcome, end_piece, check_finite, joined, most_tries
    implicit none
    private
 
@@ -112,13 +110,8 @@ contains
       there = start
       do i = 1, pieces
          left = follower%point%angle
-         right = cam_angle
          here = there
-         there = finish
-         if (i < pieces) then
-            right = first + (cam_angle - first)*i/pieces
-            there = inputs_between(start, finish, real(i, wp)/pieces)
-         end if
+         call end_piece(i, pieces, [first, cam_angle], start, finish, right, there)
          call set_inputs(follower, right, here, there, error)
          if (.not. allocated(error)) call integrate_piece(follower, right, error)
          if (.not. allocated(error)) call add_means(follower%model, follower%drive, 1.0_wp/pieces, outcome, error)
@@ -136,9 +129,7 @@ contains
       call fill_outcome(follower%model, outcome)
       call add_state_error(follower, cam_angle - first, follower%drive%resolution, outcome)
       if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
-      if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, follower%point%roller_spin]))) then
-         call raise(error, kind_convergence, "advance: torques or spin are not finite")
-      end if
+      call check_finite(outcome, follower%point%roller_spin, error)
    end subroutine step_train
 
    !> Let the model follow the inputs over a piece.
@@ -162,10 +153,6 @@ contains
       ends = [follower%point%angle, to] - pi
       associate (model => follower%model)
          call set_ramp(model, ends, start, finish)
-         if (allocated(model%gas)) then
-            model%gas%is_given = .false.
-            if (start%has_pressure) call give_pressure(model%gas, ends, [start%gas_pressure, finish%gas_pressure])
-         end if
          if (.not. allocated(model%flexible%adjuster)) return
          supply = [supply_of(model, start), supply_of(model, finish)]
          model%ramp%supply = 0.5_wp*(supply(1) + supply(2))

@@ -28,7 +28,7 @@ module camroller_follower_step
    private
 
    public :: follower_t, point_t, inputs_t, outcome_t, step_follower, piece_number, inputs_between
-   public :: set_model, set_ramp, fill_outcome, joined, most_tries, place_t, place_of, put_back
+   public :: set_model, set_ramp, fill_outcome, end_piece, check_finite, joined, most_tries, place_t, place_of, put_back
 
    !> What a host program gives at an end of a step
    type :: inputs_t
@@ -112,12 +112,7 @@ contains
       there = start
       do piece = 1, pieces
          here = there
-         next = cam_angle
-         there = finish
-         if (piece < pieces) then
-            next = first + (cam_angle - first)*piece/pieces
-            there = inputs_between(start, finish, real(piece, wp)/pieces)
-         end if
+         call end_piece(piece, pieces, [first, cam_angle], start, finish, next, there)
          if (places > 0) then
             call advance_piece(follower, next, here, there, 1.0_wp/pieces, outcome, has_state, direction, error, &
                & nodes(:, (piece - 1)*places:piece*places - 1))
@@ -140,14 +135,43 @@ contains
          call judge_point(errors, follower%model, cam_angle - first, outcome%state)
          outcome%estimated_error = outcome%estimated_error + errors%torque
       end if
-      if (present(nodes)) then
-         nodes(:2, ubound(nodes, 2)) = outcome%cam_force
-         nodes(3, ubound(nodes, 2)) = outcome%torque_drive
-      end if
-      if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, follower%point%roller_spin]))) then
+      if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
+      call check_finite(outcome, follower%point%roller_spin, error)
+   end subroutine step_follower
+
+   !> End of one of the equal pieces of a step, and the inputs there.
+   pure subroutine end_piece(piece, pieces, ends, start, finish, angle, inputs)
+      !> The piece, from 1, and their number
+      integer, intent(in) :: piece, pieces
+      !> Cam angles at both ends of the step [rad]
+      real(wp), intent(in) :: ends(2)
+      !> Inputs there
+      type(inputs_t), intent(in) :: start, finish
+      !> Cam angle at the end of the piece [rad]
+      real(wp), intent(out) :: angle
+      !> Inputs there
+      type(inputs_t), intent(out) :: inputs
+
+      angle = ends(2)
+      inputs = finish
+      if (piece == pieces) return
+      angle = ends(1) + (ends(2) - ends(1))*piece/pieces
+      inputs = inputs_between(start, finish, real(piece, wp)/pieces)
+   end subroutine end_piece
+
+   !> Refuse an outcome that is not finite.
+   subroutine check_finite(outcome, roller_spin, error)
+      !> The outcome
+      type(outcome_t), intent(in) :: outcome
+      !> Spin of the roller [rad/s]
+      real(wp), intent(in) :: roller_spin
+      !> Convergence error
+      type(error_t), allocatable, intent(inout) :: error
+
+      if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, roller_spin]))) then
          call raise(error, kind_convergence, "advance: torques or spin are not finite")
       end if
-   end subroutine step_follower
+   end subroutine check_finite
 
    !> Where a follower is.
    pure function place_of(follower) result(place)
@@ -326,10 +350,6 @@ contains
       if (allocated(error)) return
       associate (point => follower%point, model => follower%model, path => follower%piece%path)
          call set_ramp(model, [point%angle, to] - pi, start, finish)
-         if (allocated(model%gas)) then
-            model%gas%is_given = .false.
-            if (start%has_pressure) call give_pressure(model%gas, [point%angle, to] - pi, [start%gas_pressure, finish%gas_pressure])
-         end if
          call find_stops_between(model, point%angle - pi, to - pi, follower%piece%stops)
          call cover_piece(follower, means, error)
          if (present(nodes) .and. .not. allocated(error)) call fill_nodes(model, path, means, [point%angle, to] - pi, nodes, error)
@@ -347,7 +367,7 @@ contains
       end associate
    end subroutine advance_piece
 
-   !> Let speed and oil change between two angles.
+   !> Let speed, oil and gas pressure change between two angles; the pressure is that of the case where the host gives none.
    pure subroutine set_ramp(model, angles, start, finish)
       !> The model, set to the middle
       type(model_t), intent(inout) :: model
@@ -364,6 +384,9 @@ contains
          ramp%temperature = 0.5_wp*(start%oil_temperature + finish%oil_temperature)
          ramp%temperature_slope = (finish%oil_temperature - start%oil_temperature)/span
       end associate
+      if (.not. allocated(model%gas)) return
+      model%gas%is_given = .false.
+      if (start%has_pressure) call give_pressure(model%gas, angles, [start%gas_pressure, finish%gas_pressure])
    end subroutine set_ramp
 
    !> State of the follower at its cam angle with its roller's spin.
