@@ -20,8 +20,6 @@ module camroller_ode_methods
       character(len=name_length) :: name
       !> Order of the solution, order of its error estimate (0: none, the step is fixed)
       integer :: order, companion_order
-      !> Is it stable for every decay rate, whatever the step?
-      logical :: is_stiffly_stable
       !> Components it can have at most
       integer :: max_components
       !> May there be integrals beside these components?
@@ -33,11 +31,11 @@ module camroller_ode_methods
 
    !> All methods
    type(method_facts_t), parameter :: method_facts(*) = [ &
-      & method_facts_t("rodas5p", 5, 4, .true., unlimited), & ! Steinebach, BIT Numer. Math. 63 (2023) 27
-      & method_facts_t("radau5", 5, 3, .true., unlimited), & ! Hairer and Wanner, Solving ODEs II (1996), IV.8
-      & method_facts_t("hermite", 6, 5, .true., 1, takes_integrals=.true.), & ! Ours; see Hochbruck and Ostermann, BIT 51 (2011) 889
-      & method_facts_t("dormand_prince", 5, 4, .false., unlimited), & ! Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19
-      & method_facts_t("euler", 1, 0, .false., unlimited)] ! Euler (1768), as in the source thesis
+      & method_facts_t("rodas5p", 5, 4, unlimited), & ! Steinebach, BIT Numer. Math. 63 (2023) 27
+      & method_facts_t("radau5", 5, 3, unlimited), & ! Hairer and Wanner, Solving ODEs II (1996), IV.8
+      & method_facts_t("hermite", 6, 5, 1, takes_integrals=.true.), & ! Ours; see Hochbruck and Ostermann, BIT 51 (2011) 889
+      & method_facts_t("dormand_prince", 5, 4, unlimited), & ! Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19
+      & method_facts_t("euler", 1, 0, unlimited)] ! Euler (1768), as in the source thesis
 
    !> Their names
    character(len=name_length), parameter :: method_names(*) = method_facts%name

@@ -5,7 +5,10 @@ module ode_problems
    implicit none
    private
 
-   public :: decay_t, rough_t, line_t, bent_t, work_t, power_t, pair_t, switch_t, wall_t
+   public :: decay_t, rough_t, line_t, bent_t, work_t, power_t, pair_t, switch_t, wall_t, stable_methods
+
+   !> Methods that are stable for every decay rate, whatever the step
+   character(len=*), parameter :: stable_methods(*) = [character(len=7) :: "rodas5p", "radau5", "hermite"]
 
    !> Calls that a problem has seen
    type, abstract, extends(problem_t) :: counted_t
