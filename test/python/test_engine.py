@@ -110,11 +110,14 @@ def test_firing_order_gives_the_phases(camroller, tmp_path):
 
 @pytest.mark.parametrize(("old", "new", "words"), [
     ("firing_order = 1, 3, 4, 2", "firing_order = 1, 3, 4, 4", "must name every cylinder once"),
+    ("firing_order = 1, 3, 4, 2", "firing_order = 1, 3, 4, 2 strokes = 3", "'strokes' is 2 or 4"),
     ("firing_order = 1, 3, 4, 2", "firing_order = 1, 3, 2", "3 entries for 4 cylinders"),
     ("full_lift_deg = 470, 250", "full_lift_deg = 470", "1 entries for 2 lobe shapes"),
     ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_cylinders = 1, 1, 2, 2, 3, 3, 4", "7 entries for 8 cams"),
     ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 5", "the engine has 4 cylinders"),
     ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_phases_deg = 0, 0, 0, 0, 0, 0, 0, 0", "follows from the firing order"),
+    ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4 cam_lobes = 1, 1, 1, 1, 1, 1, 1, 1",
+     "with two camshafts each has one lobe shape"),
 ])
 def test_contradicting_keys_are_refused(camroller, tmp_path, old, new, words):
     text = DECK.read_text(encoding="utf-8").replace("shared/", f"{ROOT}/decks/shared/")

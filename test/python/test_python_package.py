@@ -82,6 +82,10 @@ try:
     shaft.quantities(9)
 except camroller.UsageError as error:
     errors["cam"] = str(error)
+try:
+    _library.call("shaft_values", shaft._pointer, 0, (ctypes.c_double * 2)(), 2)
+except camroller.UsageError as error:
+    errors["room"] = str(error)
 inputs = camroller.Inputs(60.0, 333.15)
 inputs.gas_pressure = 6e5
 steps = [shaft.copy().step(shaft.angle + 0.1, pressed).mean_torque_drive.hex()
@@ -149,6 +153,7 @@ def test_errors_are_exceptions_with_the_line_of_the_deck(answers):
     assert "no such deck" in errors["file"] and "radius_mm" in errors["value"]
     assert "backward" in errors["backward"] and "halt" in errors["standstill"] and "positive" in errors["negative"]
     assert "each of the 3 cams" in errors["pressures"] and "there is no cam 9" in errors["cam"]
+    assert "room for fewer numbers" in errors["room"]
     assert answers["place"] == [2, None]
 
 

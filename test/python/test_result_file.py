@@ -167,6 +167,15 @@ def test_a_full_disk_is_an_error(camroller, tmp_path, room):
         subprocess.run(["umount", str(disk)], check=True)
 
 
+def test_a_file_of_a_newer_format_is_refused(camroller, result_file, tmp_path):
+    newer = tmp_path / "newer.h5"
+    newer.write_bytes(result_file.read_bytes())
+    with h5py.File(newer, "a") as file:
+        file.attrs.modify("format_version", file.attrs["format_version"] + 1)
+    finished = subprocess.run([camroller, "export", newer], capture_output=True, text=True, check=False)
+    assert finished.returncode == FILE_ERROR and "written by a newer camroller" in finished.stderr
+
+
 @pytest.mark.parametrize("place, words", [
     ("no/such/folder/a.h5", "there is no folder 'no/such/folder/'"),
     ("/proc/a.h5", "cannot write '/proc/a.h5': "),

@@ -409,6 +409,10 @@ contains
       good%table_lift([1, 21]) = 0.0_wp
 
       lift = good
+      lift%table_angle = good%table_angle(:20)
+      call new_lift_law(law, lift, failure)
+      call expect(error, failure, "as many lifts as angles")
+      if (allocated(error)) return
       lift%table_angle = [0.0_wp]
       lift%table_lift = [0.0_wp]
       call new_lift_law(law, lift, failure)
