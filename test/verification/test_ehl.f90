@@ -382,10 +382,13 @@ contains
       type(ehl_state_t) :: state
       type(ehl_films_t) :: films, coarse
       real(wp), parameter :: materials(3) = [1000.0_wp, 4500.0_wp, 7500.0_wp]
-      integer :: law, load, speed, material, status
+      ! Contacts in range, of 72
+      integer, parameter :: expected = 45
+      integer :: law, load, speed, material, status, solved
       logical :: converged
       character(len=80) :: text
 
+      solved = 0
       options%nodes = 65
       do law = law_barus, law_roelands
          do material = 1, 3
@@ -396,6 +399,7 @@ contains
                   call new_ehl_problem(problem, contact, status)
                   if (status /= 0) cycle
                   call solve_on_grids(problem, options, grid, state, films, coarse, converged)
+                  solved = solved + 1
                   if (converged) cycle
                   write (text, "(a, 3es10.2)") "no solution for W, U, G ", 10.0_wp**(load - 6), 10.0_wp**(2*speed - 13), &
                      & materials(material)
@@ -405,6 +409,7 @@ contains
             end do
          end do
       end do
+      call check(error, solved, expected, "number of contacts in range")
    end subroutine test_range
 
    subroutine test_beyond(error)
