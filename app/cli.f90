@@ -7,7 +7,7 @@ module camroller_cli
    use camroller_deck, only : override_t, add_override
    use camroller_deck_text, only : to_lower
    use camroller_export, only : export_formats
-   use camroller_mistakes, only : add_line, line_t
+   use camroller_text_lines, only : add_line, line_t
    use camroller_kinds, only : wp
    use camroller_near_names, only : nearest_name
    use camroller_names, only : write_names, index_of_name

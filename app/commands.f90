@@ -25,7 +25,7 @@ module camroller_commands
    use camroller_ehl_command, only : ehl_deck
    use camroller_export, only : export_csv, export_series, export_summary
    use camroller_measure_command, only : audit_deck, limit_deck, study_deck
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_model, only : model_t
    use camroller_new_file, only : check_place, save_text
    use camroller_number_text, only : counted, integer_text

@@ -9,7 +9,7 @@ module camroller_console
    use camroller_deck, only : deck_t
    use camroller_error, only : error_t
    use camroller_deck_remarks, only : list_deck_remarks, list_number_remarks
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_kinds, only : wp
    use camroller_number_text, only : counted, number_text, fixed_text, integer_text
    use camroller_monitor, only : monitor_t

@@ -21,7 +21,7 @@ module camroller_rerun_command
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, list_members, member_length, open_file, read_extents, read_integer_attribute, &
       & read_numbers, read_text, read_text_attribute
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_number_text, only : agreeing, counted, integer_text, number_text
    use camroller_output, only : not_computed, result_format
    use camroller_console, only : console_t, seconds_since, start_console

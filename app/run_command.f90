@@ -15,7 +15,7 @@ module camroller_run_command
    use camroller_deck_files, only : list_deck_files
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_sweep, only : case_in_words, sweep_size
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text
    use camroller_output_kind, only : output_kind_t

@@ -6,7 +6,7 @@ module camroller_assemble
    use camroller_case_record, only : end_cases, take_header
    use camroller_case_runs, only : sort_entries
    use camroller_case_sink, only : sink_t
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_part_file, only : read_record
    use camroller_part_scan, only : index_t
    use camroller_raw_file, only : close_raw, open_raw, raw_file_t

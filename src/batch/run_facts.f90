@@ -13,7 +13,8 @@ module camroller_run_facts
    use camroller_deck_sweep, only : measured_numbers, measured_prefix, sweep_numbers, sweep_size, sweep_t, sweep_words
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_text_attribute
-   use camroller_mistakes, only : line_t, mistakes_t
+   use camroller_mistakes, only : mistakes_t
+   use camroller_text_lines, only : line_t
    use camroller_number_text, only : hexadecimal => hexadecimal_text, integer_text
    use camroller_output, only : output_t, write_deck, write_deck_table, write_measured, write_overrides, &
       & write_run, write_sweep, write_table_count

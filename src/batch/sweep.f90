@@ -15,7 +15,7 @@ module camroller_sweep
    use camroller_deck_sweep_keys, only : series_all, series_choice, series_none
    use camroller_earlier_result, only : complete_there, earlier_t, look_at_earlier, other_there, partial_there
    use camroller_hdf5_status, only : keep_printing, printing_t, restore_printing
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_monitor, only : monitor_t
    use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text

@@ -13,7 +13,7 @@ module camroller_sweep_file
    use camroller_deck_sweep, only : case_in_words
    use camroller_deck_sweep_keys, only : series_choice, series_chosen, series_none
    use camroller_earlier_result, only : complete_there, earlier_t, failures_in_words, look_at_earlier, other_there
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_monitor, only : monitor_t
    use camroller_number_text, only : agreeing, counted, integer_text
    use camroller_output, only : output_options_t

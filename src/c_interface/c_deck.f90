@@ -10,7 +10,7 @@ module camroller_c_deck
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_text, only : to_lower
    use camroller_deck_sweep, only : sweep_size, sweep_overrides, get_sweep_value, case_in_words
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_c_case, only : case_handle_t
    use camroller_c_structs, only : clear_place, give_address
    use camroller_c_texts, only : give_text, give_error, refuse_null, has_place

@@ -6,7 +6,7 @@ module camroller_deck_files
    use camroller_deck, only : deck_t
    use camroller_deck_sweep, only : axis_of
    use camroller_deck_tables, only : find_table, table_groups
-   use camroller_mistakes, only : add_line, line_t
+   use camroller_text_lines, only : add_line, line_t
    use camroller_quotes, only : without_quotes
    use camroller_settings, only : get_word
    use camroller_table_file, only : table_t

@@ -6,7 +6,8 @@ module camroller_deck_remarks
    use camroller_kinds, only : wp
    use camroller_units, only : unit_t, find_unit, from_si, to_si
    use camroller_number_text, only : number_text, is_number
-   use camroller_mistakes, only : add_line, line_t, shown
+   use camroller_mistakes, only : shown
+   use camroller_text_lines, only : add_line, line_t
    use camroller_text_list, only : text_at
    use camroller_deck_engine, only : strokes_of
    use camroller_deck_text, only : to_lower

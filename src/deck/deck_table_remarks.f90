@@ -9,7 +9,7 @@ module camroller_deck_table_remarks
    use camroller_kinds, only : degree, wp
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, find_outlier, lift_noise_t
-   use camroller_mistakes, only : add_line, line_t
+   use camroller_text_lines, only : add_line, line_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_settings, only : get_word, has_group, is_known, settings_t, take
    use camroller_table_file, only : table_t

@@ -6,7 +6,7 @@ module camroller_deck_sense
    use camroller_kinds, only : wp, pi, degree
    use camroller_deck_engine, only : strokes_of
    use camroller_engine, only : from_firing
-   use camroller_mistakes, only : add_line, line_t
+   use camroller_text_lines, only : add_line, line_t
    use camroller_needle, only : kind_needles, roller_bearing_names
    use camroller_number_text, only : counted, integer_text, number_text
    use camroller_oil_data, only : smallest_indexed, viscosity_at_40

@@ -10,7 +10,7 @@ module camroller_mistakes
    implicit none
    private
 
-   public :: line_t, mistakes_t, add_line, add_mistake, is_shown_at, raise_mistakes, shown, override_place, continues
+   public :: mistakes_t, add_mistake, is_shown_at, raise_mistakes, shown, override_place, continues
 
    !> Where a mistake is that stands in no file: in a value given beside the deck
    character(len=*), parameter :: override_place = "override"
@@ -20,12 +20,6 @@ module camroller_mistakes
    integer, parameter :: longest_message = 3000
    !> Letters that are shown of a line, and of a word within a sentence
    integer, parameter :: longest_line = 160, longest_word = 60
-
-   !> One line of text
-   type :: line_t
-      !> Its characters, without the end of line
-      character(len=:), allocatable :: text
-   end type line_t
 
    !> One mistake
    type :: mistake_t
@@ -64,21 +58,6 @@ module camroller_mistakes
    end type mistakes_t
 
 contains
-
-   !> Lengthen a list of lines. A constructor within a list would leak its text with gfortran.
-   subroutine add_line(lines, text)
-      !> Lines so far
-      type(line_t), allocatable, intent(inout) :: lines(:)
-      !> One more
-      character(len=*), intent(in) :: text
-
-      type(line_t), allocatable :: longer(:)
-
-      allocate (longer(size(lines) + 1))
-      longer(:size(lines)) = lines
-      longer(size(longer))%text = text
-      call move_alloc(longer, lines)
-   end subroutine add_line
 
    !> Take note of a mistake.
    pure subroutine add_mistake(mistakes, message, line, column, width, file, source)

@@ -8,7 +8,7 @@ module camroller_new_file
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file, kind_usage
    use camroller_file_facts, only : facts_of_path, file_facts_t, is_same_file, kind_in_words
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_number_text, only : integer_text
    use camroller_output_kind, only : is_earlier_output, output_kind_t
    use camroller_raw_file, only : append_text, close_raw, create_raw, open_raw, raw_file_t, settle_raw

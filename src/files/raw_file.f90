@@ -11,7 +11,7 @@ module camroller_raw_file
       & glob_t
    use camroller_error, only : error_t, raise, kind_file
    use camroller_file_facts, only : facts_of_descriptor, file_facts_t
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_system_file, only : error_number, ignore_size_signal, restore_size_signal, set_file_size, sync_descriptor, &
       & system_words, text_at_address
    implicit none

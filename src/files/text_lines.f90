@@ -6,7 +6,13 @@ module camroller_text_lines
    implicit none
    private
 
-   public :: text_lines_t, split_lines, line_at
+   public :: line_t, text_lines_t, add_line, split_lines, line_at
+
+   !> One line of text
+   type :: line_t
+      !> Its characters, without the end of line
+      character(len=:), allocatable :: text
+   end type line_t
 
    !> A text and its lines; carriage returns before the ends of lines belong to none
    type :: text_lines_t
@@ -63,5 +69,20 @@ contains
 
       line = lines%text(lines%first(number):lines%last(number))
    end function line_at
+
+   !> Lengthen a list of lines. A constructor within a list would leak its text with gfortran.
+   subroutine add_line(lines, text)
+      !> Lines so far
+      type(line_t), allocatable, intent(inout) :: lines(:)
+      !> One more
+      character(len=*), intent(in) :: text
+
+      type(line_t), allocatable :: longer(:)
+
+      allocate (longer(size(lines) + 1))
+      longer(:size(lines)) = lines
+      longer(size(longer))%text = text
+      call move_alloc(longer, lines)
+   end subroutine add_line
 
 end module camroller_text_lines

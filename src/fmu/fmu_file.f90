@@ -10,7 +10,7 @@ module camroller_fmu_file
    use camroller_deck_document, only : write_resolved
    use camroller_fmu_description, only : describe_fmu
    use camroller_fmu_variables, only : variable_t, list_variables, write_variables
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_new_file, only : save_text
    use camroller_output_kind, only : fmu_kind
    use camroller_number_text, only : hexadecimal_text

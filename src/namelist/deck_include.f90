@@ -6,10 +6,10 @@ module camroller_deck_include
    use camroller_deck_text, only : to_lower
    use camroller_error, only : error_t
    use camroller_file_facts, only : facts_of_path, is_same_file
-   use camroller_mistakes, only : line_t, mistakes_t, add_mistake
+   use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_number_text, only : integer_text
    use camroller_text_file, only : folder_of, join_path, read_text_file
-   use camroller_text_lines, only : line_at, split_lines, text_lines_t
+   use camroller_text_lines, only : line_t, line_at, split_lines, text_lines_t
    implicit none
    private
 

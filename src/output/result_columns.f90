@@ -8,25 +8,20 @@ module camroller_result_columns
    use camroller_hdf5_read, only : check_extents, has_member, is_text_dataset, list_members, member_length, open_file, &
       & read_extents, read_integer_attribute, read_numbers, read_text, read_text_attribute
    use camroller_output_file, only : format_version, result_format
+   use camroller_text_lines, only : line_t
    implicit none
    private
 
-   public :: word_t, table_t, open_result, check_has_cases, holds_contacts_alone, read_column, make_columns, head_column
-
-   !> A word of the table
-   type :: word_t
-      !> Its letters
-      character(len=:), allocatable :: text
-   end type word_t
+   public :: table_t, open_result, check_has_cases, holds_contacts_alone, read_column, make_columns, head_column
 
    !> A table to be written: numbers or words, by column
    type :: table_t
       !> Names and units of the columns
-      type(word_t), allocatable :: names(:), units(:)
+      type(line_t), allocatable :: names(:), units(:)
       !> Numbers, shape (row, column) [unit of the column]
       real(wp), allocatable :: numbers(:, :)
       !> Words, shape (row, column), where a column is none of numbers
-      type(word_t), allocatable :: words(:, :)
+      type(line_t), allocatable :: words(:, :)
       !> Which columns hold words
       logical, allocatable :: has_words(:)
    end type table_t

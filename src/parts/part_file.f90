@@ -9,7 +9,7 @@ module camroller_part_file
    use camroller_error, only : error_t, raise, kind_file
    use camroller_number_text, only : integer_text
    use camroller_layout, only : layout_t, put_layout
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_part_scan, only : entry_t, head_words, index_t, kind_head, kind_layout, longest_record, mark, &
       & scan_file, study_facts_t
    use camroller_raw_file, only : raw_file_t, open_raw, append_words, read_words, cut_raw, find_files, is_locked, sync_raw, &

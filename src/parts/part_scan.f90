@@ -9,7 +9,7 @@ module camroller_part_scan
    use camroller_error, only : error_t, raise, kind_file
    use camroller_number_text, only : integer_text, number_text
    use camroller_layout, only : layout_list_t, layout_t, set_layout_at, take_layout
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_raw_file, only : raw_file_t, read_words, word_size
    use camroller_record, only : record_t, checksum, clear_record, take_integer, take_text
    implicit none

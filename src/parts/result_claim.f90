@@ -7,7 +7,7 @@
 module camroller_result_claim
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_output_kind, only : result_kind
    use camroller_part_file, only : part_beginning
    use camroller_raw_file, only : append_words, close_raw, find_files, is_locked, lock_raw, open_raw, raw_file_t, read_words, &

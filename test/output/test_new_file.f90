@@ -4,7 +4,7 @@ module test_new_file
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_error, only : error_t, kind_file, kind_usage
    use camroller_file_facts, only : facts_of_path, file_facts_t, is_same_file, kind_in_words
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_new_file, only : begin_new_file, check_place, drop_new_file, end_new_file, new_file_t
    use camroller_output_kind, only : cam_kind, drawing_kind, fmu_kind, output_kind_t, result_kind, table_kind
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t, settle_raw

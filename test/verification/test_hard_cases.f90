@@ -8,7 +8,7 @@ module test_hard_cases
    use camroller_remarks, only : remark_lines, unresolved_slip
    use camroller_run, only : build_models, run_case
    use camroller_result, only : get_summary, result_t
-   use camroller_mistakes, only : line_t
+   use camroller_text_lines, only : line_t
    use camroller_raw_file, only : find_files
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_spin_piece, only : spin_piece_t, integrate_between
