@@ -32,7 +32,7 @@ module camroller_core ! style: private because it gives on all that it uses
    use camroller_journal, only : cam_bearings_t
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t
-   use camroller_camshaft, only : belt_pull_t
+   use camroller_bearing_loads, only : belt_pull_t
    use camroller_shaft_drag, only : shaft_drag_t
    use camroller_flexible_parts, only : dynamics_t
    use camroller_spring_modes, only : spring_surge_t

@@ -23,7 +23,7 @@ module camroller_shaft
    use camroller_journal_motion, only : moving_state
    use camroller_bearing_asperity, only : bearing_touch_t, bearing_state_t, new_touch, carry_load
    use camroller_bearing_heat, only : oil_flow
-   use camroller_camshaft, only : bearing_shares, pull_loads
+   use camroller_bearing_loads, only : bearing_shares, pull_loads
    use camroller_shaft_drag, only : shaft_drag_t, check_shaft_drag, find_shaft_drag
    implicit none
    private

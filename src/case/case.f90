@@ -30,7 +30,7 @@ module camroller_case
    use camroller_journal, only : cam_bearings_t
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t
-   use camroller_camshaft, only : belt_pull_t
+   use camroller_bearing_loads, only : belt_pull_t
    use camroller_shaft_drag, only : shaft_drag_t
    use camroller_engine, only : engine_t, lobe_lag
    use camroller_flexible_parts, only : dynamics_t

@@ -2,7 +2,7 @@
 module test_camshaft
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
-   use camroller_camshaft, only : bearing_shares, belt_pull_t, pull_loads
+   use camroller_bearing_loads, only : bearing_shares, belt_pull_t, pull_loads
    implicit none
    private
 

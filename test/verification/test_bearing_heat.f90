@@ -4,7 +4,7 @@ module test_bearing_heat
    use camroller_kinds, only : wp
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t, oil_flow, temperature_rise
-   use camroller_camshaft, only : belt_pull_t
+   use camroller_bearing_loads, only : belt_pull_t
    use camroller_case, only : case_t
    use camroller_error, only : error_t, kind_deck, kind_domain, kind_usage
    use camroller_journal, only : journal_at_speed, journal_t

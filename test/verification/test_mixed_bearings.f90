@@ -4,7 +4,7 @@ module test_mixed_bearings
    use camroller_kinds, only : wp, pi
    use camroller_bearing_asperity, only : asperity_forces, bearing_asperity_t, bearing_state_t, carry_load, new_touch, &
       & tabulated_forces, bearing_touch_t
-   use camroller_camshaft, only : belt_pull_t
+   use camroller_bearing_loads, only : belt_pull_t
    use camroller_case, only : case_t
    use camroller_error, only : error_t, kind_deck
    use camroller_greenwood_tripp, only : integral_5_2

@@ -14,7 +14,7 @@ module test_unit_rescaling_train
    use camroller_torque, only : cam_torque, contact_power, normal_direction
    use camroller_journal, only : journal_law_names, journal_at_speed
    use camroller_bearing_asperity, only : bearing_state_t, carry_load
-   use camroller_camshaft, only : bearing_shares
+   use camroller_bearing_loads, only : bearing_shares
    use camroller_lift, only : lift_t, lift_law_t, lift_law_names, new_lift_law, evaluate_lift
    use camroller_spline, only : spline_t, new_clamped_spline, evaluate_spline
    use unit_systems, only : units_t, systems => unit_systems_tried, scaled, compare, number, angular_speed, length, &

@@ -3,7 +3,7 @@
 !> In: places of the bearings and of a cam, pull of a belt. Out: part of a force there that each bearing carries, loads by the pull.
 !> The shaft is a row of beams from bearing to bearing, hinged at the bearings, so that a cam loads its two neighbours only.
 !> Source: the usual static balance; Islam (2019), section on camshaft bearings.
-module camroller_camshaft
+module camroller_bearing_loads
    use camroller_kinds, only : wp
    implicit none
    private
@@ -57,4 +57,4 @@ contains
       end associate
    end function pull_loads
 
-end module camroller_camshaft
+end module camroller_bearing_loads
