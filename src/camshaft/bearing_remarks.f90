@@ -6,7 +6,7 @@ module camroller_bearing_remarks
    use camroller_kinds, only : wp, two_pi
    use camroller_bearing_asperity, only : bearing_state_t, thinnest_smooth_film
    use camroller_error, only : error_t
-   use camroller_extremes, only : samples_t
+   use camroller_sampled_extremes, only : samples_t
    use camroller_journal, only : moves_like_finite
    use camroller_journal_motion, only : largest_fitted
    use camroller_journal_range, only : compare_width

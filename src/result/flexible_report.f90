@@ -8,7 +8,7 @@ module camroller_flexible_report
    use camroller_catalogue, only : lobe_prefix, series_values
    use camroller_cycle, only : cycle_t
    use camroller_error, only : error_t, kind_convergence, raise
-   use camroller_extremes, only : add_sample, samples_t, start_samples
+   use camroller_sampled_extremes, only : add_sample, samples_t, start_samples
    use camroller_flexible_cycle, only : longest_period
    use camroller_flexible_follower, only : evaluate_follower
    use camroller_flexible_parts, only : damper_count, damper_series, dampers_without_adjuster

@@ -13,7 +13,7 @@ module camroller_report
    use camroller_cycle_remarks, only : judge_films, judge_laws, judge_lobe, judge_pin, judge_pressure
    use camroller_catalogue, only : follower_count, follower_values, camshaft_columns, camshaft_count, &
       & camshaft_values, lobe_columns, lobe_prefix
-   use camroller_extremes, only : samples_t
+   use camroller_sampled_extremes, only : samples_t
    use camroller_follower_samples, only : contact_ahead, extend_trail, trail_t
    use camroller_lobe_curve, only : cam_values, curve_values
    use camroller_series_extremes, only : series_extremes_t, find_extremes, find_lobe_extremes

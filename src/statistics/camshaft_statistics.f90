@@ -10,8 +10,8 @@ module camroller_camshaft_statistics
    use camroller_catalogue, only : camshaft_columns, camshaft_count, camshaft_values
    use camroller_cycle, only : state_at
    use camroller_error_estimate, only : margin
-   use camroller_extremes, only : samples_t, search_t, add_sample, beside_jump, move_samples, narrow_search, start_samples, &
-      & start_search
+   use camroller_sampled_extremes, only : samples_t, search_t, add_sample, beside_jump, move_samples, narrow_search, &
+      & start_samples, start_search
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
    use camroller_lobe_curve, only : cam_values, contact_near, curve_points, curve_values, telling_points

@@ -16,7 +16,7 @@ module camroller_follower_samples
    use camroller_contact_forces, only : contact_t
    use camroller_axial_table, only : slice_width
    use camroller_hertz, only : peak_pressure
-   use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
+   use camroller_sampled_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
    implicit none
    private

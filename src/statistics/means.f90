@@ -16,7 +16,7 @@ module camroller_means
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series
    use camroller_cycle_walk, only : walk_t, walk_round, trapezoid
    use camroller_error_estimate, only : estimated_error
-   use camroller_extremes, only : samples_t, move_samples
+   use camroller_sampled_extremes, only : samples_t, move_samples
    use camroller_cycle_shares, only : shares_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t
    use camroller_slip_errors, only : slip_errors_t, find_slip_errors

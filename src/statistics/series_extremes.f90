@@ -7,7 +7,7 @@ module camroller_series_extremes
    use camroller_catalogue, only : follower_values, lobe_columns, camshaft_columns
    use camroller_cycle, only : state_at
    use camroller_error, only : error_t
-   use camroller_extremes, only : samples_t, search_t, add_sample, beside_jump, narrow_search, start_search
+   use camroller_sampled_extremes, only : samples_t, search_t, add_sample, beside_jump, narrow_search, start_search
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
    use camroller_lobe_curve, only : contact_near, lobe_curve_t

@@ -16,7 +16,7 @@ module camroller_standstills
    use camroller_torque_list, only : torque_count
    use camroller_cycle, only : state_at
    use camroller_state, only : evaluate_state, state_t
-   use camroller_extremes, only : add_sample
+   use camroller_sampled_extremes, only : add_sample
    use camroller_follower_samples, only : entrainment_of, entrainment_t, follower_samples_t
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
    use camroller_trajectory, only : interpolate_state

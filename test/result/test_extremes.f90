@@ -2,7 +2,7 @@
 module test_extremes
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_extremes, only : samples_t, search_t, start_samples, add_sample, start_search, narrow_search
+   use camroller_sampled_extremes, only : samples_t, search_t, start_samples, add_sample, start_search, narrow_search
    implicit none
    private
 

@@ -11,7 +11,7 @@
 !> It looks near the row that has the extreme, and near every other at which the series turns and that may hide a value beyond it:
 !> of two summits of nearly the same height, rows may show the lower one as the higher. A value counts only where it was evaluated,
 !> so that an extreme is never outside what the series takes.
-module camroller_extremes
+module camroller_sampled_extremes
    use camroller_kinds, only : wp, two_pi
    use camroller_extremum, only : extremum_t, narrow_extremum, start_extremum
    use camroller_sorting, only : find_order
@@ -469,4 +469,4 @@ contains
       search%is_exact = .false.
    end subroutine leave_row
 
-end module camroller_extremes
+end module camroller_sampled_extremes
