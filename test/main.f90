@@ -33,7 +33,7 @@ program main
    use test_lift, only : collect_lift
    use test_quadrature, only : collect_quadrature
    use test_panels, only : collect_panels
-   use test_extremum, only : collect_extremum
+   use test_minimum, only : collect_minimum
    use test_asperity, only : collect_asperity
    use test_zhao_maietta_chang, only : collect_zhao_maietta_chang
    use test_deck, only : collect_deck
@@ -294,7 +294,7 @@ contains
          new_testsuite("means", collect_means), &
          new_testsuite("extreme_errors", collect_extreme_errors), &
          new_testsuite("panels", collect_panels), &
-         new_testsuite("extremum", collect_extremum), &
+         new_testsuite("minimum", collect_minimum), &
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("shaft_simulation", collect_shaft_simulation), &
          new_testsuite("shaft_faults", collect_shaft_faults), &

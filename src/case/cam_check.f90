@@ -4,7 +4,7 @@
 module camroller_cam_check
    use camroller_cam_angle, only : cam_angle_text
    use camroller_error, only : error_t, raise, kind_domain
-   use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
+   use camroller_minimum, only : minimum_t, start_minimum, narrow_minimum
    use camroller_kinds, only : wp, pi
    use camroller_kinematics, only : position_t
    use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, next_angle
@@ -68,14 +68,14 @@ contains
       !> Domain error that names the cam angle
       type(error_t), allocatable, intent(out) :: error
 
-      type(extremum_t) :: search
+      type(minimum_t) :: search
       real(wp) :: bend ! [-]
 
-      call start_extremum(search, angles, -bends, epsilon(1.0_wp))
+      call start_minimum(search, angles, -bends, epsilon(1.0_wp))
       do while (search%is_wanted)
          call check_position(model, grinding_wheel_radius, search%trial, bend, error)
          if (allocated(error)) return
-         call narrow_extremum(search, -bend)
+         call narrow_minimum(search, -bend)
       end do
    end subroutine check_summit
 

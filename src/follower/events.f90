@@ -13,7 +13,7 @@ module camroller_events
    use camroller_dynamics, only : moments_t
    use camroller_joint_forces, only : contact_moment, curve_count, places_on_curves
    use camroller_state, only : evaluate_loading
-   use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
+   use camroller_minimum, only : minimum_t, start_minimum, narrow_minimum
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    implicit none
    private
@@ -162,14 +162,14 @@ contains
       !> Angles so far [rad]
       real(wp), allocatable, intent(inout) :: angles(:)
 
-      type(extremum_t) :: search
+      type(minimum_t) :: search
       ! Distances from zero; switches at the extreme [unit of the switch]
       real(wp) :: heights(3), found(2)
 
       heights = abs(values)
       if (any((values > 0.0_wp) .neqv. (values(2) > 0.0_wp))) return
       if (heights(2) >= min(heights(1), heights(3)) .or. 2.0_wp*heights(2) >= maxval(heights)) return
-      call start_extremum(search, places, heights, tolerance=0.0_wp)
+      call start_minimum(search, places, heights, tolerance=0.0_wp)
       do while (search%is_wanted)
          found = switches(model, search%trial)
          if ((found(kind) > 0.0_wp) .neqv. (values(2) > 0.0_wp)) then
@@ -177,7 +177,7 @@ contains
                & switch_angle(model, kind, search%trial, places(3), found(kind), values(3), switches)])
             return
          end if
-         call narrow_extremum(search, abs(found(kind)))
+         call narrow_minimum(search, abs(found(kind)))
       end do
    end subroutine add_short_change
 

@@ -10,7 +10,7 @@ module camroller_margins
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_gas, only : gas_force
    use camroller_lift, only : is_at_rest
-   use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
+   use camroller_minimum, only : minimum_t, start_minimum, narrow_minimum
    use camroller_kinematics, only : position_t, evaluate_position
    use camroller_dynamics, only : moments_t
    use camroller_pivot, only : pivot_force
@@ -224,7 +224,7 @@ contains
       !> Lowest value [N] or [-], and its cam angle [rad]
       real(wp), intent(out) :: lowest, place
 
-      type(extremum_t) :: search
+      type(minimum_t) :: search
       type(split_t) :: splits(kind)
       integer :: i
 
@@ -232,10 +232,10 @@ contains
       lowest = values(i)
       place = angles(i)
       if (i == 1 .or. i == size(values)) return
-      call start_extremum(search, angles(i - 1:i + 1), values(i - 1:i + 1), worth*maxval(abs(values)))
+      call start_minimum(search, angles(i - 1:i + 1), values(i - 1:i + 1), worth*maxval(abs(values)))
       do while (search%is_wanted)
          call take_forces(model, adjuster, search%trial, splits)
-         call narrow_extremum(search, merge(relative_inertia(splits(kind)), splits(kind)%static + splits(kind)%inertia, is_ratio))
+         call narrow_minimum(search, merge(relative_inertia(splits(kind)), splits(kind)%static + splits(kind)%inertia, is_ratio))
       end do
       lowest = search%value(2)
       place = search%point(2)

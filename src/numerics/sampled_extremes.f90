@@ -13,7 +13,7 @@
 !> so that an extreme is never outside what the series takes.
 module camroller_sampled_extremes
    use camroller_kinds, only : wp, two_pi
-   use camroller_extremum, only : extremum_t, narrow_extremum, start_extremum
+   use camroller_minimum, only : minimum_t, narrow_minimum, start_minimum
    use camroller_sorting, only : find_order
    implicit none
    private
@@ -64,7 +64,7 @@ module camroller_sampled_extremes
       integer, private :: series = 0, sense = 1
       !> Rows to look near, how many of them are done, and the search near one
       integer, private :: rows(most_rows) = 0, row_count = 0, done = 0
-      type(extremum_t), private :: now
+      type(minimum_t), private :: now
       !> What a gain is small against, the extent of the series as a rule; lowest value that there may be where the search is done
       !> [unit of the series]
       real(wp), private :: extent = 0.0_wp, bound = 0.0_wp
@@ -282,7 +282,7 @@ contains
       !> The value, with its own sign [unit of the series]
       real(wp), intent(in) :: value
 
-      call narrow_extremum(search%now, search%sense*value)
+      call narrow_minimum(search%now, search%sense*value)
       search%trial = search%now%trial
       search%is_wanted = search%now%is_wanted
       if (search%now%steps >= most_steps) search%is_wanted = search%is_wanted .and. search%now%left > search%coarse*search%extent
@@ -446,7 +446,7 @@ contains
          associate (row => search%rows(search%done))
             call look_near(samples, search, row, x, values, jump, outer)
             if (max(-x(1), x(3)) > widest .or. jump == on_both_sides) cycle
-            call start_extremum(search%now, samples%angle(row) + x, values, search%worth*search%extent, most_halvings, jump, &
+            call start_minimum(search%now, samples%angle(row) + x, values, search%worth*search%extent, most_halvings, jump, &
                & outer + [samples%angle(row), 0.0_wp])
          end associate
          search%is_wanted = search%now%is_wanted

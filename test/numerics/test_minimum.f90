@@ -1,16 +1,16 @@
 !> Smallest values near three points: parabolas, smooth functions, kinks, and brackets without one.
-module test_extremum
+module test_minimum
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
-   use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
+   use camroller_minimum, only : minimum_t, start_minimum, narrow_minimum
    implicit none
    private
 
-   public :: collect_extremum
+   public :: collect_minimum
 
 contains
 
-   subroutine collect_extremum(testsuite)
+   subroutine collect_minimum(testsuite)
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
@@ -22,14 +22,14 @@ contains
          new_unittest("without a lowest point in the middle nothing is wanted", test_none), &
          new_unittest("where two of the points are one nothing is wanted, and nothing is divided by their distance", test_same) &
          ]
-   end subroutine collect_extremum
+   end subroutine collect_minimum
 
    !> With run-time checks a division of zero by zero ends the program.
    subroutine test_same(error)
       type(error_type), allocatable, intent(out) :: error
-      type(extremum_t) :: search
+      type(minimum_t) :: search
 
-      call start_extremum(search, [1.0_wp, 1.0_wp, 2.0_wp], [3.0_wp, 3.0_wp, 4.0_wp], 1.0e-9_wp)
+      call start_minimum(search, [1.0_wp, 1.0_wp, 2.0_wp], [3.0_wp, 3.0_wp, 4.0_wp], 1.0e-9_wp)
       call check(error, .not. search%is_wanted)
       if (allocated(error)) return
       call check(error, search%value(2), 3.0_wp)
@@ -37,11 +37,11 @@ contains
 
    subroutine test_parabola(error)
       type(error_type), allocatable, intent(out) :: error
-      type(extremum_t) :: search
+      type(minimum_t) :: search
 
-      call start_extremum(search, [0.0_wp, 1.0_wp, 3.0_wp], parabola([0.0_wp, 1.0_wp, 3.0_wp]), 1.0e-9_wp)
+      call start_minimum(search, [0.0_wp, 1.0_wp, 3.0_wp], parabola([0.0_wp, 1.0_wp, 3.0_wp]), 1.0e-9_wp)
       do while (search%is_wanted)
-         call narrow_extremum(search, parabola(search%trial))
+         call narrow_minimum(search, parabola(search%trial))
       end do
       call check(error, search%point(2), 1.25_wp, thr=1.0e-12_wp)
       if (allocated(error)) return
@@ -50,17 +50,17 @@ contains
 
    subroutine test_smooth(error)
       type(error_type), allocatable, intent(out) :: error
-      type(extremum_t) :: search
+      type(minimum_t) :: search
       ! Shift of the three points [-]
       real(wp) :: shift
       integer :: i
 
       do i = 1, 50
          shift = 0.9_wp*(2*i - 51)/51.0_wp
-         call start_extremum(search, shift + [-1.5_wp, 0.0_wp, 1.0_wp], hill(shift + [-1.5_wp, 0.0_wp, 1.0_wp]), 1.0e-6_wp)
+         call start_minimum(search, shift + [-1.5_wp, 0.0_wp, 1.0_wp], hill(shift + [-1.5_wp, 0.0_wp, 1.0_wp]), 1.0e-6_wp)
          if (.not. search%is_wanted) cycle
          do while (search%is_wanted)
-            call narrow_extremum(search, hill(search%trial))
+            call narrow_minimum(search, hill(search%trial))
          end do
          ! The lowest value is -1 at 0
          call check(error, search%value(2) + 1.0_wp <= 1.0e-6_wp .and. search%steps <= 8)
@@ -74,24 +74,24 @@ contains
    !> Ends that rise by 0.01 and by 0.0002, and a lowest value 0.25 below the middle one.
    subroutine test_uneven(error)
       type(error_type), allocatable, intent(out) :: error
-      type(extremum_t) :: search
+      type(minimum_t) :: search
       real(wp), parameter :: lowest = 0.4999_wp, points(3) = [-0.01_wp, 0.0_wp, 1.0_wp], tolerance = 0.02_wp
 
-      call start_extremum(search, points, (points - lowest)**2, tolerance)
+      call start_minimum(search, points, (points - lowest)**2, tolerance)
       do while (search%is_wanted)
-         call narrow_extremum(search, (search%trial - lowest)**2)
+         call narrow_minimum(search, (search%trial - lowest)**2)
       end do
       call check(error, search%value(2) <= tolerance)
    end subroutine test_uneven
 
    subroutine test_kink(error)
       type(error_type), allocatable, intent(out) :: error
-      type(extremum_t) :: search
+      type(minimum_t) :: search
       real(wp), parameter :: points(3) = [0.0_wp, 0.2_wp, 1.0_wp]
 
-      call start_extremum(search, points, kink(points), 1.0e-6_wp)
+      call start_minimum(search, points, kink(points), 1.0e-6_wp)
       do while (search%is_wanted)
-         call narrow_extremum(search, kink(search%trial))
+         call narrow_minimum(search, kink(search%trial))
       end do
       ! Twelve values at most, each of which about halves the bracket
       call check(error, search%value(2) <= 1.0e-2_wp)
@@ -99,9 +99,9 @@ contains
       ! It is at zero
       call check(error, search%value(2) <= search%left)
       if (allocated(error)) return
-      call start_extremum(search, points, kink(points), 1.0e-6_wp, 40)
+      call start_minimum(search, points, kink(points), 1.0e-6_wp, 40)
       do while (search%is_wanted)
-         call narrow_extremum(search, kink(search%trial))
+         call narrow_minimum(search, kink(search%trial))
       end do
       call check(error, search%value(2) <= 1.0e-6_wp)
    end subroutine test_kink
@@ -114,7 +114,7 @@ contains
       real(wp), parameter :: primes(7) = [2.0_wp, 3.0_wp, 5.0_wp, 7.0_wp, 11.0_wp, 13.0_wp, 17.0_wp]
       ! Tolerance over the largest value; sum of the allowed and of what rounding leaves [-]
       real(wp), parameter :: tolerance = 1.0e-6_wp
-      type(extremum_t) :: search
+      type(minimum_t) :: search
       ! Numbers between 0 and 1, points, values there, place of the kink, slope of its right leg over that of the left one, bend
       real(wp) :: numbers(size(primes)), points(3), values(3), place, slope, bend
       integer :: i, k, steps, kinks
@@ -130,9 +130,9 @@ contains
          if (numbers(6) > 0.6_wp) bend = 0.0_wp
          values = [(legs(points(k)), k=1, 3)]
          if (values(2) > min(values(1), values(3))) cycle
-         call start_extremum(search, points, values, tolerance*maxval(values), most)
+         call start_minimum(search, points, values, tolerance*maxval(values), most)
          do while (search%is_wanted)
-            call narrow_extremum(search, legs(search%trial))
+            call narrow_minimum(search, legs(search%trial))
          end do
          kinks = kinks + 1
          steps = steps + search%steps
@@ -157,12 +157,12 @@ contains
 
    subroutine test_none(error)
       type(error_type), allocatable, intent(out) :: error
-      type(extremum_t) :: search
+      type(minimum_t) :: search
 
-      call start_extremum(search, [0.0_wp, 1.0_wp, 2.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0e-6_wp)
+      call start_minimum(search, [0.0_wp, 1.0_wp, 2.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0e-6_wp)
       call check(error, .not. search%is_wanted)
       if (allocated(error)) return
-      call start_extremum(search, [0.0_wp, 1.0_wp, 2.0_wp], [1.0_wp, 1.0_wp, 1.0_wp], 1.0e-6_wp)
+      call start_minimum(search, [0.0_wp, 1.0_wp, 2.0_wp], [1.0_wp, 1.0_wp, 1.0_wp], 1.0e-6_wp)
       call check(error, .not. search%is_wanted)
    end subroutine test_none
 
@@ -190,4 +190,4 @@ contains
       f = abs(x - 0.3_wp) + 2.0_wp*max(x - 0.3_wp, 0.0_wp)
    end function kink
 
-end module test_extremum
+end module test_minimum

@@ -3,9 +3,9 @@
 !> In: three points with their values, then the value at each requested point. Out: the lowest value found. The caller evaluates
 !> its own function between the calls, as with `roots`:
 !>
-!>     call start_extremum(search, points, values, tolerance)
+!>     call start_minimum(search, points, values, tolerance)
 !>     do while (search%is_wanted)
-!>        call narrow_extremum(search, f(search%trial))
+!>        call narrow_minimum(search, f(search%trial))
 !>     end do
 !>
 !> then `search%point(2)` is the position and `search%value(2)` the value of the minimum, and `search%left` what may be left to
@@ -15,12 +15,12 @@
 !> Where the function is smooth a parabola through the bracket tells its lowest point. At a kink it does not, but may happen to tell
 !> one value: it counts where it tells the points beside the bracket as well. Otherwise the next value is that where the lines cross
 !> that continue both legs of the kink, each through an end of the bracket and the point beside it.
-module camroller_extremum
+module camroller_minimum
    use camroller_kinds, only : wp
    implicit none
    private
 
-   public :: extremum_t, start_extremum, narrow_extremum
+   public :: minimum_t, start_minimum, narrow_minimum
 
    !> Values asked for at most, unless the caller has another number: a smooth function takes two to four, a kink some ten
    integer, parameter :: most_steps = 12
@@ -36,7 +36,7 @@ module camroller_extremum
    real(wp), parameter :: golden = 0.5_wp*(3.0_wp - sqrt(5.0_wp))
 
    !> A search on its way
-   type :: extremum_t
+   type :: minimum_t
       !> Is the value at `trial` wanted?
       logical :: is_wanted = .false.
       !> Point where it is wanted [x]
@@ -57,14 +57,14 @@ module camroller_extremum
       integer, private :: limit = most_steps
       !> End of the bracket, 1 or 3, beyond a jump next to the middle point, or 0
       integer, private :: jump = 0
-   end type extremum_t
+   end type minimum_t
 
 contains
 
    !> Begin with three points in order; without a lowest one in the middle nothing is wanted.
-   pure subroutine start_extremum(search, points, values, tolerance, most, jump, outer)
+   pure subroutine start_minimum(search, points, values, tolerance, most, jump, outer)
       !> The search
-      type(extremum_t), intent(out) :: search
+      type(minimum_t), intent(out) :: search
       !> Three points, increasing [x]
       real(wp), intent(in) :: points(3)
       !> Values there [f]
@@ -93,12 +93,12 @@ contains
       end if
       search%is_wanted = values(2) <= min(values(1), values(3)) .and. max(values(1), values(3)) > values(2)
       if (search%is_wanted) call choose_trial(search)
-   end subroutine start_extremum
+   end subroutine start_minimum
 
    !> Take the value at the trial point.
-   pure subroutine narrow_extremum(search, value)
+   pure subroutine narrow_minimum(search, value)
       !> The search
-      type(extremum_t), intent(inout) :: search
+      type(minimum_t), intent(inout) :: search
       !> Value at `search%trial` [f]
       real(wp), intent(in) :: value
 
@@ -117,12 +117,12 @@ contains
          call replace_end(search, side, search%trial, value)
       end if
       call choose_trial(search)
-   end subroutine narrow_extremum
+   end subroutine narrow_minimum
 
    !> Put a point in the place of an end of the bracket, which is beside it then.
    pure subroutine replace_end(search, side, point, value)
       !> The search
-      type(extremum_t), intent(inout) :: search
+      type(minimum_t), intent(inout) :: search
       !> The end, 1 or 3
       integer, intent(in) :: side
       !> The point [x], value there [f]
@@ -142,7 +142,7 @@ contains
    !> nothing.
    pure subroutine choose_trial(search)
       !> The search
-      type(extremum_t), intent(inout) :: search
+      type(minimum_t), intent(inout) :: search
 
       ! Parts of the bracket [x], rises of the value over them [f], slopes [f/x]
       real(wp) :: parts(2), rises(2), slopes(2)
@@ -197,7 +197,7 @@ contains
    !> end of that part and the point beside it, continued to the jump.
    pure subroutine choose_beside_jump(search)
       !> The search
-      type(extremum_t), intent(inout) :: search
+      type(minimum_t), intent(inout) :: search
 
       ! From the middle point to the end [x], rise of the value over it [f]
       real(wp) :: part, rise
@@ -217,7 +217,7 @@ contains
    !> Value of the parabola through the bracket.
    pure function parabola_at(search, parts, slopes, point) result(value)
       !> The search
-      type(extremum_t), intent(in) :: search
+      type(minimum_t), intent(in) :: search
       !> Parts of the bracket [x], slopes of the value over them, both positive [f/x], point [x]
       real(wp), intent(in) :: parts(2), slopes(2), point
       !> The value [f]
@@ -232,7 +232,7 @@ contains
    !> value, and to gain, all the less.
    pure subroutine confirm_parabola(search, parts, slopes, gain, is_smooth)
       !> The search
-      type(extremum_t), intent(in) :: search
+      type(minimum_t), intent(in) :: search
       !> Parts of the bracket [x], slopes of the value over them [f/x], what the parabola gains [f]
       real(wp), intent(in) :: parts(2), slopes(2), gain
       !> Does it?
@@ -252,7 +252,7 @@ contains
    !> Slope of the line through an end of the bracket and the point beside it.
    pure function leg_slope(search, side) result(slope)
       !> The search
-      type(extremum_t), intent(in) :: search
+      type(minimum_t), intent(in) :: search
       !> 1 or 2
       integer, intent(in) :: side
       !> The slope [f/x]
@@ -264,7 +264,7 @@ contains
    !> Where the lines of both legs cross, if that is in the bracket and not above its middle point.
    pure subroutine cross_legs(search, has_crossing, crossing, lowest)
       !> The search
-      type(extremum_t), intent(in) :: search
+      type(minimum_t), intent(in) :: search
       !> Do they?
       logical, intent(out) :: has_crossing
       !> Where [x], value there [f]
@@ -287,4 +287,4 @@ contains
       end associate
    end subroutine cross_legs
 
-end module camroller_extremum
+end module camroller_minimum
