@@ -13,7 +13,7 @@ module camroller_deck_remarks
    use camroller_deck_text, only : to_lower
    use camroller_deck_schema, only : key_length, key_t, range_t, type_number, type_numbers
    use camroller_deck_values, only : read_value, value_t
-   use camroller_deck_meant, only : ask_kinematic, is_usual, say_meant
+   use camroller_unit_guess, only : ask_kinematic, is_usual, say_meant
    use camroller_deck_sense, only : list_odd_pairs
    use camroller_deck_sweep, only : axis_of, sweep_axis_t
    use camroller_key_uses, only : is_idle, say_idle

@@ -14,7 +14,7 @@ module camroller_deck_values
    use camroller_mistakes, only : shown
    use camroller_near_names, only : nearest_name
    use camroller_deck_bounds, only : is_bounded, say_bounds
-   use camroller_deck_meant, only : say_meant
+   use camroller_unit_guess, only : say_meant
    use camroller_deck_schema, only : key_t, range_t, key_length, say_allowed, type_number, type_integer, &
       & type_logical, type_name, type_text, type_numbers, type_integers, type_words
    implicit none

@@ -1,7 +1,7 @@
 !> What may have been meant by a number that no engine has: the same number in another unit.
 !>
 !> In: a key with its usual range, a number. Out: a question. Remarks and refusals ask it.
-module camroller_deck_meant
+module camroller_unit_guess
    use camroller_kinds, only : wp, degree, celsius_zero
    use camroller_number_text, only : number_text
    use camroller_deck_schema, only : key_t, range_t
@@ -99,4 +99,4 @@ contains
          & "viscosity_at_100_degC_mm2_s of temperature_law 'data_sheet'"
    end subroutine ask_kinematic
 
-end module camroller_deck_meant
+end module camroller_unit_guess
