@@ -18,7 +18,7 @@ module camroller_run
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
-   use camroller_report, only : make_result, search_extremes, take_statistics
+   use camroller_case_result, only : make_result, search_extremes, take_statistics
    use camroller_result, only : quantity_t, result_t
    use camroller_flexible_solution, only : train_method
    use camroller_running_in, only : aged_t, add_running_in, run_in

@@ -1,6 +1,6 @@
 !> A result: named series over the cam angle and named scalars, each with unit, meaning and the effect it comes from.
 !>
-!> In: what `camroller_report` evaluated. Out: `result_t`, to be read by name or written to a file.
+!> In: what `camroller_case_result` evaluated. Out: `result_t`, to be read by name or written to a file.
 module camroller_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use camroller_kinds, only : wp

@@ -10,7 +10,7 @@ module camroller_study_trial
    use camroller_ehl_record, only : ehl_record_t, column, make_ehl_record
    use camroller_ehl_summary, only : mean_over_cycle
    use camroller_model, only : model_t
-   use camroller_report, only : output_angles
+   use camroller_case_result, only : output_angles
    use camroller_result, only : result_t, find_quantity
    use camroller_run, only : run_case
    use camroller_sorting, only : median

@@ -13,7 +13,7 @@ module test_extreme_errors
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_remarks, only : film_without_limit, lost_contact, remark_lines
-   use camroller_report, only : search_extremes, take_statistics
+   use camroller_case_result, only : search_extremes, take_statistics
    use camroller_result, only : quantity_t, result_t, find_quantity, get_series, get_summary
    use camroller_run, only : build_models, run_case
    use camroller_settled_slip, only : settle

@@ -1,7 +1,7 @@
 !> The result of a case: series at the output angles and the summary.
 !>
 !> In: case, models, cycles. Out: `result_t`.
-module camroller_report
+module camroller_case_result
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
@@ -394,4 +394,4 @@ contains
       end associate
    end subroutine solve_turn
 
-end module camroller_report
+end module camroller_case_result
