@@ -58,6 +58,9 @@ int camroller_case_from_text(const char *text, const char *folder, camroller_cas
 int camroller_case_from_file(const char *path, camroller_case **out, camroller_error *error);
 /* Give a key, named `group.key`, another value, as a deck would; the case stays as it was where that fails. */
 int camroller_case_set(camroller_case *self, const char *key, const char *value, camroller_error *error);
+/* The same with `count` keys at once, for those that a deck can only have together. */
+int camroller_case_set_all(camroller_case *self, size_t count, const char *const keys[], const char *const values[],
+                           camroller_error *error);
 /* Laws, geometry and oil, without a run */
 int camroller_case_check(const camroller_case *self, camroller_error *error);
 int camroller_case_copy(const camroller_case *self, camroller_case **out, camroller_error *error);
@@ -70,7 +73,7 @@ int camroller_case_number(const camroller_case *self, size_t number, char *const
  * camroller_result_remarks. */
 void camroller_case_remarks(const camroller_case *self, char *buffer, size_t room);
 /* Cases of the deck's sweep, 1 without one. A case stands for its deck without the sweep; the case of a number, from 0, is made
- * of it. Name of a key that varies, from 0, and its value in a case as a deck has it; CAMROLLER_USAGE tells that there are no more. */
+ * of it, with the sweep's values of the keys that vary, whatever was set for them. Name of a key that varies, from 0, and its value in a case as a deck has it; CAMROLLER_USAGE tells that there are no more. */
 size_t camroller_case_sweep_size(const camroller_case *self);
 int camroller_case_sweep_value(const camroller_case *self, size_t number, size_t key, char *const texts[2], size_t room,
                                camroller_error *error);

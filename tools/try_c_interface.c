@@ -111,6 +111,16 @@ static camroller_case *test_case(const char *path) {
    REFUSED(CAMROLLER_USAGE, "'camroller_case'", camroller_case_set, NULL, "a.b", "1");
    REFUSED(CAMROLLER_USAGE, "'key'", camroller_case_set, from_text, NULL, "1");
    REFUSED(CAMROLLER_USAGE, "'value'", camroller_case_set, from_text, "a.b", NULL);
+   /* a thicker wall needs the thinner needles */
+   const char *keys[] = {"roller.wall_thickness_mm", "needle_bearing.needle_radius_mm"}, *words[] = {"6.6", "0.7"}, *holes[] = {"a.b", NULL};
+   REFUSED(CAMROLLER_DECK, "wall_thickness_mm", camroller_case_set, from_text, keys[0], words[0]);
+   CHECK(camroller_case_set_all(from_text, 2, keys, words, &error) == 0);
+   CHECK(camroller_case_set_all(from_text, 0, keys, words, NULL) == 0);
+   REFUSED(CAMROLLER_USAGE, "'camroller_case'", camroller_case_set_all, NULL, 2, keys, words);
+   REFUSED(CAMROLLER_USAGE, "'keys'", camroller_case_set_all, from_text, 2, NULL, words);
+   REFUSED(CAMROLLER_USAGE, "'values'", camroller_case_set_all, from_text, 2, keys, NULL);
+   REFUSED(CAMROLLER_USAGE, "'key'", camroller_case_set_all, from_text, 2, holes, words);
+   REFUSED(CAMROLLER_USAGE, "'value'", camroller_case_set_all, from_text, 2, keys, holes);
    CHECK(camroller_case_check(from_text, &error) == 0);
    REFUSED(CAMROLLER_USAGE, "NULL", camroller_case_check, NULL);
    CHECK(camroller_case_set(from_text, "roller.radius_mm", "60", &error) == 0);

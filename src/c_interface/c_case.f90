@@ -10,7 +10,7 @@ module camroller_c_case
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_text_file, only : folder_of, read_text_file
-   use camroller_deck, only : deck_t, override_t, parse_deck, make_case, add_places
+   use camroller_deck, only : deck_t, override_t, parse_deck, read_again, make_case, add_places
    use camroller_run, only : run_case, build_models
    use camroller_result, only : result_t, find_quantity, get_series, get_summary
    use camroller_remarks, only : remark_lines
@@ -145,35 +145,80 @@ contains
       !> 0 or the kind of the error
       integer(c_int) :: code
 
+      type(error_t), allocatable :: failure
+
+      call refuse_null(handle, "camroller_case", failure)
+      call refuse_null(key, "key", failure)
+      call refuse_null(value, "value", failure)
+      if (.not. allocated(failure)) call set_values(handle, [key], [value], failure)
+      call give_error(failure, error, code)
+   end function case_set
+
+   !> Give several keys other values together.
+   function case_set_all(handle, count, keys, values, error) bind(C, name="camroller_case_set_all") result(code)
+      !> The case; left as it was where there is an error
+      type(c_ptr), value, intent(in) :: handle
+      !> Number of keys
+      integer(c_size_t), value, intent(in) :: count
+      !> Keys and values, as for `case_set`
+      type(c_ptr), value, intent(in) :: keys, values
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(c_ptr), pointer :: names(:), texts(:)
+      type(error_t), allocatable :: failure
+      integer(c_size_t) :: i
+
+      call refuse_null(handle, "camroller_case", failure)
+      call refuse_null(keys, "keys", failure)
+      call refuse_null(values, "values", failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(keys, names, [count])
+         call c_f_pointer(values, texts, [count])
+         do i = 1, count
+            call refuse_null(names(i), "key", failure)
+            call refuse_null(texts(i), "value", failure)
+         end do
+      end if
+      if (.not. allocated(failure)) call set_values(handle, names, texts, failure)
+      call give_error(failure, error, code)
+   end function case_set_all
+
+   !> Give keys of a case other values, as a deck would that has all of them.
+   subroutine set_values(handle, keys, values, error)
+      !> The case; left as it was where there is an error
+      type(c_ptr), intent(in) :: handle
+      !> Texts of C, none of them NULL
+      type(c_ptr), intent(in) :: keys(:), values(:)
+      !> Deck error with all mistakes
+      type(error_t), allocatable, intent(out) :: error
+
       type(case_handle_t), pointer :: given
       type(deck_t) :: deck
       type(case_t) :: case
       type(override_t) :: none(0)
       type(override_t), allocatable :: overrides(:)
-      type(error_t), allocatable :: failure
       character(len=:), allocatable :: name, text
-      integer :: count
+      integer :: count, i
 
-      call refuse_null(handle, "camroller_case", failure)
-      call refuse_null(key, "key", failure)
-      call refuse_null(value, "value", failure)
-      if (.not. allocated(failure)) then
-         call c_f_pointer(handle, given)
-         call take_text(key, name)
-         call take_text(value, text)
-         count = size(given%deck%overrides)
-         allocate (overrides(count + 1))
-         overrides(:count) = given%deck%overrides
-         overrides(count + 1)%text = name//"="//text
-         call parse_deck(deck, given%deck%text, given%deck%name, given%deck%folder, overrides, failure)
-         if (.not. allocated(failure)) call make_case(deck, none, case, failure)
-         if (.not. allocated(failure)) then
-            given%deck = deck
-            given%case = case
-         end if
-      end if
-      call give_error(failure, error, code)
-   end function case_set
+      if (size(keys) == 0) return
+      call c_f_pointer(handle, given)
+      count = size(given%deck%overrides)
+      allocate (overrides(count + size(keys)))
+      overrides(:count) = given%deck%overrides
+      do i = 1, size(keys)
+         call take_text(keys(i), name)
+         call take_text(values(i), text)
+         overrides(count + i)%text = name//"="//text
+      end do
+      call read_again(deck, given%deck, overrides, error)
+      if (.not. allocated(error)) call make_case(deck, none, case, error)
+      if (allocated(error)) return
+      given%deck = deck
+      given%case = case
+   end subroutine set_values
 
    !> Check a case without running it: laws, geometry, oil.
    function case_check(handle, error) bind(C, name="camroller_case_check") result(code)

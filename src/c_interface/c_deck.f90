@@ -5,7 +5,7 @@
 module camroller_c_deck
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
    use camroller_error, only : error_t, raise, kind_internal, kind_usage, add_context
-   use camroller_deck, only : deck_t, override_t, parse_deck, make_case, drop_sweep
+   use camroller_deck, only : deck_t, override_t, read_again, make_case, drop_sweep
    use camroller_deck_document, only : given_numbers
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_text, only : to_lower
@@ -213,7 +213,7 @@ contains
          overrides(count + 1:count + size(varied)) = varied
          overrides = overrides(:count + size(varied))
          allocate (made)
-         call parse_deck(made%deck, deck%text, deck%name, deck%folder, overrides, failure, deck%tables)
+         call read_again(made%deck, deck, overrides, failure)
          if (.not. allocated(failure)) call make_case(made%deck, none, made%case, failure)
          if (allocated(failure)) then
             if (size(varied) > 0) call add_context(failure, case_in_words(given%deck%sweep, int(number) + 1))

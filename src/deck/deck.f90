@@ -25,7 +25,8 @@ module camroller_deck
    implicit none
    private
 
-   public :: deck_t, override_t, add_override, read_deck, parse_deck, make_case, make_sweep_case, add_places, drop_sweep, is_read
+   public :: deck_t, override_t, add_override, read_deck, parse_deck, read_again, make_case, make_sweep_case, add_places
+   public :: drop_sweep, is_read
 
    !> A deck without mistakes
    type :: deck_t
@@ -101,7 +102,6 @@ contains
       class(column_reader_t), intent(in), optional :: reader
 
       type(mistakes_t) :: mistakes, consequences
-      integer :: i
 
       if (present(tables)) deck%tables = tables
       allocate (deck%overrides, source=overrides)
@@ -109,7 +109,6 @@ contains
       deck%folder = folder
       call expand_includes(text, folder, deck%text, deck%origins, mistakes)
       call new_schema(deck%schema)
-      call new_settings(deck%schema, deck%settings)
       if (mistakes%count > 0) then
          ! What is missing then, or there twice, follows from it
          call read_shape(deck%text, deck%shape, consequences)
@@ -117,20 +116,59 @@ contains
          call raise_mistakes(mistakes, name, deck%shape%lines, error)
          return
       end if
+      call read_text(deck, error, reader)
+   end subroutine parse_deck
+
+   !> Read a deck again with other values given beside it; its lines keep their places in the files that they are from.
+   subroutine read_again(deck, given, overrides, error)
+      !> The deck
+      type(deck_t), intent(out) :: deck
+      !> The deck as it was read
+      type(deck_t), intent(in) :: given
+      !> All values given beside the deck
+      type(override_t), intent(in) :: overrides(:)
+      !> Deck error with all mistakes
+      type(error_t), allocatable, intent(out) :: error
+
+      deck%name = given%name
+      deck%folder = given%folder
+      deck%text = given%text
+      deck%origins = given%origins
+      deck%schema = given%schema
+      deck%tables = given%tables
+      allocate (deck%overrides, source=overrides)
+      call read_text(deck, error)
+   end subroutine read_again
+
+   !> Settings, tables and sweep of a deck from its text and the values given beside it.
+   subroutine read_text(deck, error, reader)
+      !> The deck
+      type(deck_t), intent(inout) :: deck
+      !> Deck error with all mistakes
+      type(error_t), allocatable, intent(out) :: error
+      !> Reader of tables of cases that are no text
+      class(column_reader_t), intent(in), optional :: reader
+
+      type(mistakes_t) :: mistakes
+      integer :: i
+
+      call new_settings(deck%schema, deck%settings)
       call read_shape(deck%text, deck%shape, mistakes)
       call check_encoding(deck%shape%lines, mistakes)
       call match_deck(deck%schema, deck%shape, deck%settings, mistakes)
-      do i = 1, size(overrides)
-         call apply_override(deck%schema, overrides(i), deck%settings, mistakes)
-         if (first_foreign(overrides(i)%text) > 0) call add_mistake(mistakes, "the value is no UTF-8", 0, 1, &
-            & len(overrides(i)%text), override_place, overrides(i)%text)
+      do i = 1, size(deck%overrides)
+         associate (override => deck%overrides(i))
+            call apply_override(deck%schema, override, deck%settings, mistakes)
+            if (first_foreign(override%text) > 0) call add_mistake(mistakes, "the value is no UTF-8", 0, 1, len(override%text), &
+               & override_place, override%text)
+         end associate
       end do
       call demand_required(deck%schema, deck%settings, mistakes)
       call complete(deck%settings, deck%folder, deck%tables, mistakes)
       call read_sweep(deck%schema, deck%settings, deck%folder, deck%sweep, mistakes, reader)
       call place_mistakes(deck%origins, deck%shape%lines, mistakes)
-      call raise_mistakes(mistakes, name, deck%shape%lines, error)
-   end subroutine parse_deck
+      call raise_mistakes(mistakes, deck%name, deck%shape%lines, error)
+   end subroutine read_text
 
    !> Values that follow from others, rules, tables.
    subroutine complete(settings, folder, tables, mistakes)
@@ -217,11 +255,12 @@ contains
    end subroutine make_sweep_case
 
    !> Take a deck as it stands, without its sweep, which is taken out of its text too, so that a result of it can be repeated.
+   !> Blanks in its place keep all other lines in theirs.
    subroutine drop_sweep(deck)
       !> The deck
       type(deck_t), intent(inout) :: deck
 
-      integer :: i, first, next
+      integer :: i, k, first, next
 
       associate (shape => deck%shape)
          do i = 1, size(shape%groups)
@@ -229,7 +268,9 @@ contains
             first = shape%lines%first(shape%groups(i)%line) + shape%groups(i)%column - 1
             next = len(deck%text) + 1
             if (i < size(shape%groups)) next = shape%lines%first(shape%groups(i + 1)%line) + shape%groups(i + 1)%column - 1
-            deck%text = deck%text(:first - 1)//deck%text(next:)
+            do k = first, next - 1
+               if (deck%text(k:k) /= new_line("a")) deck%text(k:k) = " "
+            end do
             exit
          end do
       end associate
