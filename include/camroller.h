@@ -137,7 +137,8 @@ int camroller_simulation_new(const camroller_case *self, int lobe, double cam_an
 /* Advance to a cam angle beyond the present one. A step that fails leaves the follower as it was, to the last bit. */
 int camroller_simulation_step(camroller_simulation *self, double cam_angle, const camroller_inputs *start,
                               const camroller_inputs *end, camroller_outcome *outcome, camroller_error *error);
-/* Number at the end of the last step that did not fail, by the name of a follower's series */
+/* Number at the end of the last step that did not fail, by the name of a follower's series, or of a series of the case's torques by
+ * source, for this follower's part of it */
 int camroller_simulation_value(const camroller_simulation *self, const char *name, double *value, camroller_error *error);
 double camroller_simulation_angle(const camroller_simulation *self);
 /* The engine has stopped: the roller comes to rest, and the next step starts without spin; a flexible train comes to rest. */
@@ -182,9 +183,9 @@ int camroller_shaft_step(camroller_shaft *self, double cam_angle, const camrolle
                          const double *gas_pressures, camroller_shaft_outcome *outcome, camroller_error *error);
 /* What the last step gave for the follower of a cam, from 1 */
 int camroller_shaft_follower(const camroller_shaft *self, int cam, camroller_outcome *outcome, camroller_error *error);
-/* Numbers at the end of the last step that did not fail: of the follower of a cam, from 1, or of the camshafts, 0. One by its name, or all in the
- * order of camroller_shaft_quantity, which gives name, unit and meaning of the number at a place, from 0, as
- * camroller_result_quantity does. */
+/* Numbers at the end of the last step that did not fail: of the follower of a cam, from 1, or of the camshafts, 0. One by its name,
+ * as camroller_simulation_value takes it, or all in the order of camroller_shaft_quantity, which gives name, unit and meaning of the
+ * number at a place, from 0, as camroller_result_quantity does. */
 int camroller_shaft_value(const camroller_shaft *self, int cam, const char *name, double *value, camroller_error *error);
 int camroller_shaft_values(const camroller_shaft *self, int cam, double *values, size_t room, camroller_error *error);
 int camroller_shaft_quantity(const camroller_shaft *self, int cam, size_t number, char *const texts[3], size_t room,

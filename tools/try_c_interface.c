@@ -205,6 +205,9 @@ static void test_simulation(const camroller_case *self) {
               + outcome.torque_others - outcome.torque_drive) < 1e-12);
    CHECK(camroller_simulation_value(simulation, "contact_load", &value, &error) == 0);
    CHECK(value > 0.0 && fabs(hypot(outcome.cam_force[0], outcome.cam_force[1]) / value - 1.0) < 0.1);
+   CHECK(camroller_simulation_value(simulation, "torque_contact", &value, &error) == 0 && value == outcome.torques[1] && value > 0.0);
+   REFUSED(CAMROLLER_USAGE, "torque_tip", camroller_simulation_value, simulation, "torque_tip", &value);
+   REFUSED(CAMROLLER_USAGE, "torque_drive", camroller_simulation_value, simulation, "torque_drive", &value);
    CHECK(camroller_simulation_step(simulation, 1.2, &start, &end, NULL, NULL) == 0);
    REFUSED(CAMROLLER_USAGE, "grow", camroller_simulation_step, simulation, 1.2, &start, &end, &outcome);
    REFUSED(CAMROLLER_USAGE, "speed", camroller_simulation_step, simulation, 1.3, &wrong, &end, &outcome);
@@ -365,6 +368,8 @@ static void test_shaft(const char *path, const camroller_case *other) {
    CHECK(camroller_shaft_follower(shaft, 3, &follower, &error) == 0 && follower.contact_load[1] > 0.0);
    CHECK(camroller_shaft_value(shaft, 3, "contact_load", &value, &error) == 0);
    CHECK(follower.contact_load[0] <= value && value <= follower.contact_load[1]);
+   CHECK(camroller_shaft_value(shaft, 3, "torque_contact", &value, &error) == 0 && value == follower.torques[1] && value > 0.0);
+   REFUSED(CAMROLLER_USAGE, "torque_bearings", camroller_shaft_value, shaft, 3, "torque_bearings", &value);
    follower.size = 3;
    REFUSED(CAMROLLER_USAGE, "size", camroller_shaft_follower, shaft, 3, &follower);
    REFUSED(CAMROLLER_USAGE, "cam 9", camroller_shaft_follower, shaft, 9, &follower);

@@ -9,7 +9,7 @@ module camroller_c_shaft_values
    use camroller_result, only : quantity_t, find_quantity
    use camroller_shaft_simulation, only : cam_number, cam_place, shaft_values
    use camroller_c_shaft, only : shaft_handle_t
-   use camroller_c_structs, only : check_outcome, give_outcome, give_quantity, refuse_size
+   use camroller_c_structs, only : check_outcome, give_outcome, give_quantity, refuse_size, torque_row
    use camroller_c_texts, only : take_text, give_error, refuse_null, has_place
    implicit none
    private
@@ -145,7 +145,7 @@ contains
       call give_error(failure, error, code)
    end function values_of_shaft
 
-   !> Number at the end of the last step, by the name of a series.
+   !> Number at the end of the last step, by the name of a series, or of one of a follower's torques by source.
    function shaft_value(handle, cam, name, value, error) bind(C, name="camroller_shaft_value") result(code)
       !> The shaft
       type(c_ptr), value, intent(in) :: handle
@@ -166,7 +166,7 @@ contains
       ! The caller's number, all numbers of the cam [unit of the series]
       real(c_double), pointer :: number
       real(wp), allocatable :: found(:)
-      integer :: position
+      integer :: position, row
 
       call refuse_null(handle, "camroller_shaft", failure)
       call refuse_null(name, "name", failure)
@@ -177,12 +177,13 @@ contains
       end if
       if (.not. allocated(failure)) then
          call take_text(name, word)
+         row = 0
+         position = find_quantity(given%of_camshaft, word)
          if (cam > 0) then
+            if (position > 0) row = torque_row(word)
             position = find_quantity(given%of_follower, word)
-         else
-            position = find_quantity(given%of_camshaft, word)
          end if
-         if (position == 0) then
+         if (position == 0 .and. row == 0) then
             call raise(failure, kind_usage, "there is no number '"//word//"'; camroller_shaft_quantity lists those of "// &
                & "a follower and of the camshafts")
          else
@@ -190,9 +191,13 @@ contains
          end if
       end if
       if (.not. allocated(failure)) then
-         call shaft_values(given%shaft, int(cam), given%outcomes(given%last), found)
          call c_f_pointer(value, number)
-         number = found(position)
+         if (row > 0) then
+            number = given%outcomes(given%last)%followers(cam)%torques(row)
+         else
+            call shaft_values(given%shaft, int(cam), given%outcomes(given%last), found)
+            number = found(position)
+         end if
       end if
       call give_error(failure, error, code)
    end function shaft_value

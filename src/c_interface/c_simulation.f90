@@ -13,7 +13,7 @@ module camroller_c_simulation
       & angle_of => simulation_angle
    use camroller_saved_simulation, only : save_simulation, restore_simulation, block_size
    use camroller_c_case, only : case_handle_t
-   use camroller_c_structs, only : clear_place, take_inputs, check_outcome, give_outcome, give_address, give_bytes
+   use camroller_c_structs, only : clear_place, take_inputs, check_outcome, give_outcome, give_address, give_bytes, torque_row
    use camroller_c_texts, only : take_text, give_error, refuse_null
    implicit none
    private
@@ -151,7 +151,7 @@ contains
       call give_error(failure, error, code)
    end function simulation_step
 
-   !> Number of the follower at the end of its last step, by the name of a series.
+   !> Number of the follower at the end of its last step, by the name of a series of its own, or of one of its torques by source.
    function simulation_value(handle, name, value, error) bind(C, name="camroller_simulation_value") result(code)
       !> The follower, the name
       type(c_ptr), value, intent(in) :: handle, name
@@ -169,7 +169,7 @@ contains
       ! The caller's number, all numbers of the follower [unit of the series]
       real(c_double), pointer :: number
       real(wp), allocatable :: values(:)
-      integer :: position
+      integer :: position, row
 
       call refuse_null(handle, "camroller_simulation", failure)
       call refuse_null(name, "name", failure)
@@ -180,15 +180,21 @@ contains
          call list_series(given%case, series)
          position = find_quantity(series, word)
          allocate (values(follower_count(given%case)))
-         if (position < 1 .or. position > size(values)) then
+         row = 0
+         if (position > size(values)) row = torque_row(word)
+         if (position < 1 .or. (position > size(values) .and. row == 0)) then
             call raise(failure, kind_usage, "a follower has no number '"//word//"'; it has the series of a result that belong "// &
-               & "to one follower")
+               & "to one follower, and its torques by source")
          else if (.not. given%has_outcome) then
             call raise(failure, kind_usage, "the follower has made no step since it was started or restored")
          else
             call get_values(given%simulation, given%case, given%outcome%state, values)
             call c_f_pointer(value, number)
-            number = values(position)
+            if (row > 0) then
+               number = given%outcome%torques(row)
+            else
+               number = values(position)
+            end if
          end if
       end if
       call give_error(failure, error, code)

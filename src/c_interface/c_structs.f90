@@ -9,13 +9,13 @@ module camroller_c_structs
    use camroller_result, only : quantity_t
    use camroller_simulation, only : outcome_t, inputs_t
    use camroller_torque_list, only : is_torque, of_bearings, of_contact, of_geometric, of_guide, of_needle, of_roller_inertia, &
-      & torque_count
+      & of_shaft_drag, torque_count, torque_series
    use camroller_c_texts, only : give_text, refuse_null
    implicit none
    private
 
    public :: listed_torques, size_of_others, take_inputs, check_outcome, give_outcome, give_quantity, give_bytes, other_torque, &
-      & refuse_size, give_address, clear_place
+      & torque_row, refuse_size, give_address, clear_place
 
    !> Torques in the order of the structs
    integer, parameter :: listed_torques(*) = [of_geometric, of_contact, of_needle, of_guide, of_roller_inertia]
@@ -95,6 +95,17 @@ contains
          if (is_torque(row) .and. row /= of_bearings .and. all(listed_torques /= row)) torque = torque + torques(row)
       end do
    end function other_torque
+
+   !> Row of `torque_list` by the name of its series, for a torque that every follower has of its own; 0: there is none.
+   pure function torque_row(name) result(row)
+      !> The name
+      character(len=*), intent(in) :: name
+      !> The row
+      integer :: row
+
+      row = findloc(torque_series == name .and. is_torque, .true., 1)
+      if (any(row == [of_bearings, of_shaft_drag])) row = 0
+   end function torque_row
 
    !> Inputs from the caller's struct.
    subroutine take_inputs(address, inputs, error)
