@@ -70,6 +70,8 @@ module camroller_follower_step
       real(wp) :: estimated_error = 0.0_wp
       !> State of the follower at the end of the step
       type(state_t) :: state
+      !> Is there a step that gave it, and did not fail?
+      logical :: is_of_step = .false.
    end type outcome_t
 
    !> Longest piece that is integrated in one go [rad]

@@ -236,7 +236,8 @@ contains
       else
          call step_follower(simulation%follower, cam_angle, start, finish, outcome, error, nodes)
       end if
-      if (.not. allocated(error)) return
+      outcome%is_of_step = .not. allocated(error)
+      if (outcome%is_of_step) return
       if (allocated(kept)) then
          simulation = kept
       else
@@ -335,15 +336,14 @@ contains
       type(outcome_t), intent(in) :: outcome
       !> Values in the order of `simulation_series`; none where there is an error [unit of the series]
       real(wp), allocatable, intent(out) :: values(:)
-      !> Usage error where the follower has not been started
+      !> Usage error where the follower has not been started, or the outcome is not that of a step
       type(error_t), allocatable, intent(out) :: error
 
-      if (is_started(simulation)) then
-         allocate (values(follower_count(case)))
+      allocate (values(merge(follower_count(case), 0, is_started(simulation) .and. outcome%is_of_step)))
+      if (size(values) > 0) then
          call get_values(simulation, case, outcome%state, values)
       else
-         allocate (values(0))
-         call raise(error, kind_usage, "simulation_values: the follower has not been started; call start_simulation first")
+         call raise(error, kind_usage, "simulation_values: the outcome is not that of a step; call start_simulation, then advance")
       end if
    end subroutine simulation_values
 

@@ -330,7 +330,7 @@ contains
       type(override_t) :: none(0)
       type(case_t) :: the_case
       type(simulation_t) :: simulation
-      type(outcome_t) :: outcome
+      type(outcome_t) :: outcome, failed
       type(sweep_options_t) :: options
       type(sweep_report_t) :: report
       type(error_t), allocatable :: failure
@@ -345,6 +345,18 @@ contains
       if (allocated(error)) return
       call simulation_values(simulation, the_case, outcome, values, failure)
       call expect(error, failure, kind_usage, "start_simulation")
+      if (allocated(error)) return
+      the_case = cold_case()
+      call start_simulation(simulation, the_case, 1.0_wp, failure)
+      call simulation_values(simulation, the_case, outcome, values, failure)
+      call expect(error, failure, kind_usage, "that of a step")
+      if (.not. allocated(error)) call check(error, size(values) == 0, "an outcome of no step has values")
+      if (allocated(error)) return
+      call advance(simulation, 1.1_wp, inputs_t(70.0_wp, 330.0_wp), inputs_t(80.0_wp, 50.0_wp), failed, failure)
+      call check(error, allocated(failure), "a step that should fail does not")
+      if (allocated(error)) return
+      call simulation_values(simulation, the_case, failed, values, failure)
+      call expect(error, failure, kind_usage, "that of a step")
    end subroutine test_nothing
 
    !> At this tolerance rounding keeps the usual method from some of these steps.
