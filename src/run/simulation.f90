@@ -161,7 +161,7 @@ contains
             & "one, or take lobe 1")
       else if (allocated(case%running_in)) then
          call raise(error, kind_usage, caller//": hours of running are computed from whole cycles, not from steps; "// &
-            & "leave &running_in out, and the surfaces are those of the case")
+            & "leave &running_in out, with &tribofilm where that is given, and the surfaces are those of the case")
       end if
    end subroutine check_start
 
