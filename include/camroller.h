@@ -115,7 +115,9 @@ typedef struct {
    /* by source: against spring, masses and gas; contact; roller bearing; valve guide; inertia of the roller [N m]. All of the drive
     * with `mean_torque_others` below */
    double mean_torques[5], torques[5];
-   double cam_force[2]; /* of the follower on the cam at the end, x from the finger's pivot to the cam's centre [N] */
+   /* of the follower on the cam at the end, x from the finger's pivot to the cam's centre, y at a right angle to x, to the side to
+    * which the finger turns as it opens the valve [N] */
+   double cam_force[2];
    /* smallest and largest within the step, at the points that its means are made of */
    double contact_load[2];   /* [N] */
    double extreme_torque[2]; /* torque that drives [N m] */
@@ -174,7 +176,8 @@ typedef struct {
    double extreme_torque[2]; /* smallest and largest torque that drives, at angles a degree apart at most [N m] */
    double estimated_error;   /* of the mean torque that drives, as in camroller_outcome [N m] */
    /* Programs built for a header without the following still work: `size` tells. */
-   double mean_torque_others, torque_others; /* of all followers, as in camroller_outcome [N m] */
+   /* of all followers, as in camroller_outcome, and the seals and the drive of the camshafts (&shaft_drag) [N m] */
+   double mean_torque_others, torque_others;
 } camroller_shaft_outcome;
 /* Advance to a cam angle beyond the present one. `gas_pressures` has one for each cam's valve at the start, then one for each at the
  * end [Pa]; NULL: those of the inputs, for every cam, or of the case's table. A step that fails leaves all followers as they were,

@@ -61,7 +61,8 @@ module camroller_follower_step
       real(wp) :: mean_torque_friction = 0.0_wp, torque_friction = 0.0_wp
       !> By source, the rows of `torque_list`: mean over the step and at its end [N m]; last the energy residual [W]
       real(wp) :: mean_torques(torque_count) = 0.0_wp, torques(torque_count) = 0.0_wp
-      !> Force of the follower on the cam, x from the finger's pivot to the cam centre, at the end of the step [N]
+      !> Force of the follower on the cam at the end of the step, x from the finger's pivot to the cam centre, y at a right angle to
+      !> x, to the side to which the finger turns as it opens the valve [N]
       real(wp) :: cam_force(2) = 0.0_wp
       !> Smallest and largest values within the step, at the points that the means are made of and at its end
       type(extremes_t) :: extremes
