@@ -22,7 +22,7 @@ static const char *const words[KINDS] = {
    "smallest_torque_drive", "largest_torque_drive", "estimated_error", "series"
 };
 
-enum { KEY_ROOM = 96, PATH_ROOM = 4096, LINE_ROOM = 256 };
+enum { KEY_ROOM = 96, PATH_ROOM = 4096, LINE_ROOM = 256, NUMBER_ROOM = 32 };
 
 typedef struct {
    enum kind kind;
@@ -46,6 +46,7 @@ struct instance {
    int cams;
    double *pressures, *row; /* room for pressures of all cams, and for the numbers of one */
    size_t row_room;
+   int is_told[2]; /* of inputs that do not count */
    state now;
    camroller_error error;
 };
@@ -149,6 +150,7 @@ int instance_reset(instance *self) {
    camroller_shaft_free(self->now.shaft);
    self->now.shaft = NULL;
    self->now.time = 0.0;
+   memset(self->is_told, 0, sizeof self->is_told);
    set_starts(self);
    return 1;
 }
@@ -177,20 +179,29 @@ int instance_set(instance *self, unsigned number, double value) {
 
 /* The case of the FMU with the parameters of a state; NULL where there is an error */
 static camroller_case *case_of(instance *self, const double *values) {
-   char path[PATH_ROOM + 32], text[64];
+   char path[PATH_ROOM + 32], (*texts)[NUMBER_ROOM] = malloc(self->count * sizeof *texts);
+   const char **keys = malloc(self->count * sizeof *keys), **words = malloc(self->count * sizeof *words);
    camroller_case *made = NULL;
+   size_t count = 0;
+   int is_right = texts != NULL && keys != NULL && words != NULL ? 1 : instance_refuse(self, "there is no memory for the parameters");
    snprintf(path, sizeof path, "%s/deck.nml", self->resources);
-   if (!heard(self, camroller_case_from_file(path, &made, &self->error))) return NULL;
-   for (size_t i = 0; i < self->count; i++) {
+   is_right = is_right && heard(self, camroller_case_from_file(path, &made, &self->error));
+   locale_t made_locale, before = begin_c_locale(&made_locale);
+   for (size_t i = 0; is_right && i < self->count; i++) {
       if (self->variables[i].kind != KEY || values[i] == self->variables[i].start) continue;
-      locale_t made_locale, before = begin_c_locale(&made_locale);
-      snprintf(text, sizeof text, "%.17g", values[i]);
-      end_c_locale(before, made_locale);
-      if (heard(self, camroller_case_set(made, self->variables[i].key, text, &self->error))) continue;
-      camroller_case_free(made);
-      return NULL;
+      snprintf(texts[count], sizeof *texts, "%.17g", values[i]);
+      keys[count] = self->variables[i].key;
+      words[count] = texts[count];
+      count++;
    }
-   return made;
+   end_c_locale(before, made_locale);
+   is_right = is_right && heard(self, camroller_case_set_all(made, count, keys, words, &self->error));
+   free(texts);
+   free(keys);
+   free(words);
+   if (is_right) return made;
+   camroller_case_free(made);
+   return NULL;
 }
 
 /* Value of the only variable of a kind, or of that of a cam; 0 where there is none */
@@ -243,6 +254,32 @@ static int take_outputs(instance *self, const camroller_shaft_outcome *outcome) 
    return 1;
 }
 
+/* Has an importer given variables of a kind other values than those at the start? */
+static int is_given(const instance *self, enum kind kind) {
+   for (size_t i = 0; i < self->count; i++)
+      if (self->variables[i].kind == kind && self->now.values[i] != self->variables[i].start) return 1;
+   return 0;
+}
+
+/* Tell once of inputs that are given but do not count. */
+static void tell_unused(instance *self) {
+   static const struct {
+      enum kind has, value, slope;
+      const char *message;
+   } inputs[] = {
+      {HAS_PRESSURE, PRESSURE, PRESSURE_SLOPE,
+       "the gas pressures of the inputs are not used: the parameter gas_pressure_is_input is false, so that the deck's pressure counts"},
+      {HAS_SUPPLY, SUPPLY, SUPPLY_SLOPE,
+       "the supply pressure of the input is not used: the parameter supply_pressure_is_input is false, so that the deck's counts"},
+   };
+   for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
+      if (self->is_told[i] || value_of(self, inputs[i].has, 0) != 0.0) continue;
+      if (!is_given(self, inputs[i].value) && !is_given(self, inputs[i].slope)) continue;
+      self->tell(self->who, 0, inputs[i].message);
+      self->is_told[i] = 1;
+   }
+}
+
 int instance_step(instance *self, double time, double length) {
    camroller_shaft_outcome outcome = {.size = sizeof outcome};
    camroller_inputs start = {.size = sizeof start}, end = {.size = sizeof end};
@@ -254,7 +291,9 @@ int instance_step(instance *self, double time, double length) {
    end.speed = start.speed + value_of(self, SPEED_SLOPE, 0) * length;
    if (!(start.speed > 0.0 && end.speed > 0.0))
       return instance_refuse(self, "the speed must be above zero at both ends of a step: a cam does not turn backward, and an engine "
-                                   "that stands makes no steps");
+                                   "that stands makes no steps; where it turns again, reset the FMU and initialise it at that time "
+                                   "with that start_angle");
+   tell_unused(self);
    start.oil_temperature = value_of(self, TEMPERATURE, 0);
    end.oil_temperature = start.oil_temperature + value_of(self, TEMPERATURE_SLOPE, 0) * length;
    start.has_supply = end.has_supply = value_of(self, HAS_SUPPLY, 0) != 0.0;

@@ -49,15 +49,33 @@ contains
          call add_variable(version, i - 1, variables(i), text)
       end do
       text = text//"  </ModelVariables>"//n//"  <ModelStructure>"//n
-      if (version == 2) text = text//"    <Outputs>"//n
-      do i = 1, size(variables)
-         if (variables(i)%role /= role_output) cycle
-         if (version == 3) text = text//"    <Output"//attribute("valueReference", integer_text(i - 1))//"/>"//n
-         if (version == 2) text = text//"      <Unknown"//attribute("index", integer_text(i))//"/>"//n
-      end do
-      if (version == 2) text = text//"    </Outputs>"//n
+      call add_outputs(version, "Output", variables, text)
+      ! All outputs are calculated from the start on: no importer gives them a value
+      call add_outputs(version, "InitialUnknown", variables, text)
       text = text//"  </ModelStructure>"//n//"</fmiModelDescription>"//n
    end subroutine describe_fmu
+
+   !> All outputs as part of the model's structure.
+   subroutine add_outputs(version, part, variables, text)
+      !> Version of FMI
+      integer, intent(in) :: version
+      !> What they are: the name of an element of FMI 3.0, in the plural one of 2.0
+      character(len=*), intent(in) :: part
+      !> The variables
+      type(variable_t), intent(in) :: variables(:)
+      !> Text to extend
+      character(len=:), allocatable, intent(inout) :: text
+
+      integer :: i
+
+      if (version == 2) text = text//"    <"//part//"s>"//n
+      do i = 1, size(variables)
+         if (variables(i)%role /= role_output) cycle
+         if (version == 3) text = text//"    <"//part//attribute("valueReference", integer_text(i - 1))//"/>"//n
+         if (version == 2) text = text//"      <Unknown"//attribute("index", integer_text(i))//"/>"//n
+      end do
+      if (version == 2) text = text//"    </"//part//"s>"//n
+   end subroutine add_outputs
 
    !> All units, each once.
    subroutine add_units(variables, text)
@@ -119,7 +137,7 @@ contains
       values = ""
       if (variable%is_logical) then
          values = attribute("start", merge("true ", "false", abs(variable%start) > 0.0_wp))
-      else if (variable%role /= role_time) then
+      else if (variable%role == role_parameter .or. variable%role == role_input) then
          values = attribute("start", number_text(variable%start))
       end if
       if (variable%unit /= "1") values = values//attribute("unit", variable%unit)
@@ -131,7 +149,8 @@ contains
       case (role_input)
          facts = facts//attribute("causality", "input")//attribute("variability", "continuous")
       case default
-         facts = facts//attribute("causality", "output")//attribute("variability", "continuous")//attribute("initial", "exact")
+         facts = facts//attribute("causality", "output")//attribute("variability", "continuous")// &
+            & attribute("initial", "calculated")
       end select
       if (version == 3) then
          element = "Float64"

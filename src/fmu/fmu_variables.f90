@@ -69,19 +69,19 @@ contains
          variables(size(variables))%is_logical = .true.
          do cam = 1, cams
             call add(role_input, "cam["//integer_text(cam)//"].gas_pressure", "Pa", "gauge pressure that presses the valve "// &
-               & "shut at the start of a step", "gas_pressure", 0.0_wp, cam)
+               & "shut at the start of a step, used where gas_pressure_is_input is true", "gas_pressure", 0.0_wp, cam)
             call add(role_input, "cam["//integer_text(cam)//"].gas_pressure_slope", "Pa s-1", "change of the gas pressure with "// &
-               & "time over a step", "gas_pressure_slope", 0.0_wp, cam)
+               & "time over a step, used where gas_pressure_is_input is true", "gas_pressure_slope", 0.0_wp, cam)
          end do
       end if
       if (allocated(case%dynamics) .and. allocated(case%lash_adjuster)) then
          call add(role_parameter, "supply_pressure_is_input", "1", "does an input give the supply pressure of the lash "// &
             & "adjuster, not the deck?", "has_supply")
          variables(size(variables))%is_logical = .true.
-         call add(role_input, "supply_pressure", "Pa", "gauge pressure of the oil at the lash adjuster at the start of a step", &
-            & "supply_pressure", case%lash_adjuster%supply_pressure)
-         call add(role_input, "supply_pressure_slope", "Pa s-1", "change of the supply pressure with time over a step", &
-            & "supply_pressure_slope")
+         call add(role_input, "supply_pressure", "Pa", "gauge pressure of the oil at the lash adjuster at the start of a "// &
+            & "step, used where supply_pressure_is_input is true", "supply_pressure", case%lash_adjuster%supply_pressure)
+         call add(role_input, "supply_pressure_slope", "Pa s-1", "change of the supply pressure with time over a step, used "// &
+            & "where supply_pressure_is_input is true", "supply_pressure_slope")
       end if
       call add(role_output, "cam_angle", "rad", "cam angle of the first cam", "cam_angle")
       call add(role_output, "mean_torque_drive", "N m", "torque that drives all camshafts, mean over the step", &

@@ -23,6 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks" / "three_cam_head.nml"
 VERSIONS = ("2", "3")
 STEPS = 40
+ADJUSTER = ["--set", "operating_point.speed_rpm=600", "--set", "numerics.accuracy=1e-3"]
 
 
 @pytest.fixture(scope="module")
@@ -93,9 +94,11 @@ class Unit:
         return (self.unit.getFloat64 if self.is_3 else self.unit.getReal)([self.numbers[name]])[0]
 
     def start(self, **values):
-        if not self.is_3:
-            self.unit.setupExperiment(startTime=0.0)
-        self.unit.enterInitializationMode()
+        if self.is_3:
+            self.unit.enterInitializationMode(startTime=self.time)
+        else:
+            self.unit.setupExperiment(startTime=self.time)
+            self.unit.enterInitializationMode()
         for name, value in values.items():
             self.set(name, value)
         self.unit.exitInitializationMode()
@@ -222,8 +225,7 @@ def test_parameters_are_keys_of_the_deck_and_pressures_inputs(write, package, tm
 def test_a_flexible_train_takes_its_supply_pressure_from_an_input(write, package, tmp_path, version):
     """Only a deck with a lash adjuster has that input; states of the train are serialised."""
     deck = ROOT / "decks" / "lash_adjuster.nml"
-    words = ["--set", "operating_point.speed_rpm=600", "--set", "numerics.accuracy=1e-3"]
-    path = write(version, deck, "adjuster", words)
+    path = write(version, deck, "adjuster", ADJUSTER)
     assert validate_fmu(str(path)) == []
     names = {variable.name for variable in fmpy.read_model_description(str(path)).modelVariables}
     others = {variable.name for variable in fmpy.read_model_description(str(write(version))).modelVariables}
@@ -265,6 +267,80 @@ def test_remarks_on_the_deck_are_warnings(write, tmp_path, version):
     odd.drive(1)
     assert {category.name for category in odd.description.logCategories} == {"logStatusError", "logStatusWarning"}
     for one in (unit, odd):
+        one.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_parameters_that_fit_only_together_are_taken(write, package, tmp_path, version):
+    """A thicker wall needs the thinner needles, which come behind it."""
+    deck = ROOT / "decks" / "thesis.nml"
+    values = {"roller.wall_thickness_mm": 6.6, "needle_bearing.needle_radius_mm": 0.7}
+    unit = Unit(write(version, deck, "thesis"), tmp_path / "unit")
+    unit.start(**values)
+    shaft = package.Shaft(package.Case(deck, set=values), 0.0)
+    unit.step(1e-3)
+    outcome = shaft.step(unit.get("speed") * 1e-3, package.Inputs(unit.get("speed"), unit.get("oil_temperature")))
+    assert unit.get("mean_torque_drive") == outcome.mean_torque_drive
+    unit.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_pressures_that_do_not_count_are_told_once(write, tmp_path, version):
+    deck = ROOT / "decks" / "lash_adjuster.nml"
+    for name, path, given in (("gas", write(version), {"cam[2].gas_pressure_slope": 1e7}),
+                              ("supply", write(version, deck, "adjuster", ADJUSTER), {"supply_pressure": 3e5})):
+        parameter = f"{name}_pressure_is_input"
+        inputs = [variable for variable in fmpy.read_model_description(str(path)).modelVariables if f"{name}_pressure" in variable.name
+                  and variable.causality == "input"]
+        assert len(inputs) > 1 and all(f"used where {parameter} is true" in variable.description for variable in inputs)
+        unit = Unit(path, tmp_path / name)
+        unit.start()
+        unit.step(1e-3)
+        assert unit.messages == []
+        for again in range(2):
+            for variable, value in given.items():
+                unit.set(variable, value)
+            unit.step(1e-3)
+            unit.step(1e-3)
+            assert len(unit.messages) == again + 1 and parameter in unit.messages[-1] and unit.statuses[-1] == (1, "logStatusWarning")
+            unit.unit.reset()
+            unit.time = 0.0
+            unit.start()
+        unit.unit.reset()
+        unit.time = 0.0
+        unit.start(**{parameter: True}, **given)
+        unit.step(1e-3)
+        assert len(unit.messages) == 2
+        unit.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_outputs_are_calculated_from_the_start_on(write, version):
+    """Those with an exact start could be set by an importer before the initialisation."""
+    description = fmpy.read_model_description(str(write(version)))
+    outputs = {variable.name for variable in description.modelVariables if variable.causality == "output"}
+    assert {variable.name for variable in description.modelVariables if variable.initial == "calculated"} == outputs
+    assert {unknown.variable.name for unknown in description.initialUnknowns} == outputs
+    assert all(variable.start is None for variable in description.modelVariables if variable.causality == "output")
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_after_a_standstill_an_instance_starts_anew(write, tmp_path, version):
+    """At the time and the angle at which the engine turns again."""
+    unit, new = (Unit(write(version), tmp_path / "unit", name) for name in ("one", "new"))
+    unit.start()
+    unit.drive(2)
+    unit.set("speed", 0.0)
+    with pytest.raises(Exception):
+        unit.step(1e-3)
+    assert "reset the FMU" in unit.messages[-1]
+    angle = unit.get("cam_angle")
+    unit.unit.reset()
+    for one, time in ((unit, 5.0), (new, 0.0)):
+        one.time = time
+        one.start(start_angle=angle)
+    assert unit.drive() == new.drive()
+    for one in (unit, new):
         one.end()
 
 
