@@ -73,7 +73,8 @@ int camroller_case_number(const camroller_case *self, size_t number, char *const
  * camroller_result_remarks. */
 void camroller_case_remarks(const camroller_case *self, char *buffer, size_t room);
 /* Cases of the deck's sweep, 1 without one. A case stands for its deck without the sweep; the case of a number, from 0, is made
- * of it, with the sweep's values of the keys that vary, whatever was set for them. Name of a key that varies, from 0, and its value in a case as a deck has it; CAMROLLER_USAGE tells that there are no more. */
+ * of it, with the sweep's values of the keys that vary, whatever was set for them. Name of a key that varies, from 0, and its value
+ * in a case as a deck has it; CAMROLLER_USAGE tells that there are no more. */
 size_t camroller_case_sweep_size(const camroller_case *self);
 int camroller_case_sweep_value(const camroller_case *self, size_t number, size_t key, char *const texts[2], size_t room,
                                camroller_error *error);

@@ -11,7 +11,7 @@ import concurrent.futures
 import itertools
 import numbers
 import os
-from ctypes import c_double, create_string_buffer
+from ctypes import c_char_p, c_double, create_string_buffer
 
 from ._library import (LIBRARY, Cam, CamrollerError, ConvergenceError, DeckError, DomainError, FileError, Handle, Inputs, Outcome,
                        ShaftOutcome, UsageError, byref, call, encoded, list_remarks, list_texts)
@@ -63,28 +63,44 @@ def _path(path):
 
 
 class Case(Handle):
-    """A case of the file of a deck; `Case.from_text` takes its text. `set` gives keys, named `group.key`, other values."""
+    """A case of the file of a deck; `Case.from_text` takes its text. `set` gives keys, named `group.key`, other values, all of them
+    together."""
 
     _kind = "case"
     _instead = "; give other processes the path or the text of its deck, and the values that were set"
+    #: Keys that were given other values
+    _given = frozenset()
 
     def __init__(self, path, set=None):
         self._take("case_from_file", _path(path))
-        for key, value in (set or {}).items():
-            self.set(key, value)
+        self.set_all(set or {})
 
     @classmethod
     def from_text(cls, text, folder=None, set=None):
         """A case of the text of a deck; paths of tables start at `folder`. A mark of the order of bytes at its beginning is skipped."""
-        case = cls._make("case_from_text", encoded(text.removeprefix("\ufeff"), "the text of a deck"),
+        case = cls._make("case_from_text", encoded(text, "the text of a deck").removeprefix("\ufeff".encode()),
                          None if folder is None else _path(folder))
-        for key, value in (set or {}).items():
-            case.set(key, value)
+        case.set_all(set or {})
         return case
+
+    def copy(self):
+        """A copy, which goes its own way."""
+        made = super().copy()
+        made._given = self._given
+        return made
 
     def set(self, key, value):
         """Give a key another value; the case stays as it was where that fails."""
-        call("case_set", self._pointer, encoded(key, "the name of a key"), encoded(_word(value), f"the value of {key}"))
+        self.set_all({key: value})
+
+    def set_all(self, values):
+        """Give several keys other values at once, for those that a deck can only have together; the case stays as it was where that
+        fails."""
+        keys = [encoded(key, "the name of a key") for key in values]
+        words = [encoded(_word(value), f"the value of {key}") for key, value in values.items()]
+        texts = c_char_p * len(keys)
+        call("case_set_all", self._pointer, len(keys), texts(*keys), texts(*words))
+        self._given |= {_plain_key(key) for key in values}
 
     def check(self):
         """Laws, geometry and oil, without a run."""
@@ -106,7 +122,12 @@ class Case(Handle):
         return {name: value.value for name, _, _ in list_texts("case_number", 3, self._pointer, after=(byref(value),))}
 
     def sweep(self):
-        """Cases of the deck's sweep: for each the keys that vary with their values, and the case."""
+        """Cases of the deck's sweep: for each the keys that vary with their values, and the case. A key that varies cannot have been
+        set."""
+        unused = [key for key in self._varied(0) if _plain_key(key) in self._given]
+        if unused:
+            raise UsageError(f"the deck's sweep varies {unused[0]}, so that the value that was set is not used; run the case alone, or "
+                             "give a sweep of your own")
         for number in range(LIBRARY.camroller_case_sweep_size(self._pointer)):
             yield self._varied(number), Case._make("case_sweep_case", self._pointer, number)
 
@@ -159,15 +180,31 @@ class Result(Handle):
         return array.array("d", numbers)
 
 
+def _plain_key(key):
+    """The name of a key as the library compares it."""
+    encoded(key, "the name of a key")
+    return key.strip().lower()
+
+
+def _checked(case):
+    """A case, where anything else would be taken for one by the library."""
+    if not isinstance(case, Case):
+        raise TypeError(f"expected a Case, not {type(case).__name__}")
+    return case
+
+
 def run_cases(cases, threads=None):
     """Run cases in threads; their results in order. An error is raised when its turn comes."""
     with concurrent.futures.ThreadPoolExecutor(threads or os.cpu_count()) as pool:
-        yield from pool.map(Case.run, cases)
+        yield from pool.map(Case.run, map(_checked, cases))
 
 
 def _axis(key, values):
     """Values of a key of a sweep, checked before anything is run: each stands for one coordinate."""
     values = values.tolist() if hasattr(values, "tolist") else values
+    group = _plain_key(key).partition(".")[0]
+    if group in ("output", "sweep"):
+        raise UsageError(f"sweep: keys of &{group} cannot be swept")
     if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
         raise TypeError(f"sweep: give {key} a list of values")
     values = [value.tolist() if hasattr(value, "tolist") else value for value in values]
@@ -183,19 +220,20 @@ def run(deck, set=None, sweep=None, threads=None):
     """Run a deck, given by its path or as a `Case`, with all cases of its sweep, or of `sweep`: a grid of values by key.
 
     With xarray a dataset, whose coordinates are the keys that vary: the axes of a grid, otherwise along `case`; series have the axis
-    `cam_angle` [rad] beside. Without it a list of (values of the keys that vary, result).
+    `cam_angle` [rad] beside. Without it a list of (values of the keys that vary, result). Keys that vary cannot be in `set`.
     """
     if sweep:
         sweep = {key: _axis(key, values) for key, values in sweep.items()}
+        both = {_plain_key(key) for key in sweep} & {_plain_key(key) for key in set or ()}
+        if both:
+            raise UsageError(f"{min(both)} is in set and in sweep: give it in one of them")
     case = deck.copy() if isinstance(deck, Case) else Case(deck)
-    for key, value in (set or {}).items():
-        case.set(key, value)
+    case.set_all(set or {})
     if sweep:
         places = []
         for values in itertools.product(*sweep.values()):
             varied = case.copy()
-            for key, value in zip(sweep, values):
-                varied.set(key, value)
+            varied.set_all(dict(zip(sweep, values)))
             places.append((dict(zip(sweep, values)), varied))
     else:
         places = list(case.sweep())
@@ -264,7 +302,7 @@ class Simulation(_Stepped):
     _kind = "simulation"
 
     def __init__(self, case, angle=0.0, lobe=1):
-        self._take("simulation_new", case._pointer, lobe, angle)
+        self._take("simulation_new", _checked(case)._pointer, lobe, angle)
 
     def step(self, angle, start, end=None):
         """Advance to a cam angle beyond the present one, with `Inputs` at both ends; without `end` they do not change."""
@@ -273,7 +311,8 @@ class Simulation(_Stepped):
         return outcome
 
     def value(self, name):
-        """Number at the end of the last step, by the name of a follower's series."""
+        """Number at the end of the last step, by the name of a follower's series, or of one of its torques by source, as
+        `torque_contact`."""
         value = c_double()
         call("simulation_value", self._pointer, encoded(name, "a name"), byref(value))
         return value.value
@@ -285,7 +324,7 @@ class Simulation(_Stepped):
     @classmethod
     def restore(cls, case, block):
         """The follower that was saved, of the same case."""
-        return cls._make("simulation_restore", case._pointer, block, len(block))
+        return cls._make("simulation_restore", _checked(case)._pointer, block, len(block))
 
 
 class Shaft(_Stepped):
@@ -294,7 +333,7 @@ class Shaft(_Stepped):
     _kind = "shaft"
 
     def __init__(self, case, angle=0.0, threads=1):
-        self._take("shaft_new", case._pointer, angle, threads)
+        self._take("shaft_new", _checked(case)._pointer, angle, threads)
 
     @property
     def cams(self):
@@ -347,4 +386,4 @@ class Shaft(_Stepped):
     @classmethod
     def restore(cls, case, block, threads=1):
         """The shaft that was saved, of the same case."""
-        return cls._make("shaft_restore", case._pointer, block, len(block), threads)
+        return cls._make("shaft_restore", _checked(case)._pointer, block, len(block), threads)

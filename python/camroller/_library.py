@@ -158,7 +158,7 @@ TEXTS = POINTER(c_void_p)
 CALLS = {
     "case_from_text": (c_char_p, c_char_p, PLACE),
     "case_from_file": (c_char_p, PLACE),
-    "case_set": (c_void_p, c_char_p, c_char_p),
+    "case_set_all": (c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_char_p)),
     "case_check": (c_void_p,),
     "case_copy": (c_void_p, PLACE),
     "case_number": (c_void_p, c_size_t, TEXTS, c_size_t, NUMBERS),

@@ -11,7 +11,8 @@ import h5py
 import numpy as np
 import pytest
 
-from conftest import CMAKE_BUILD, CMAKE_FLAGS, ROOT, alone_in_cmake, printed
+from conftest import CMAKE_BUILD, CMAKE_FLAGS, ROOT, alone_in_cmake, printed, run
+from test_include import split_deck
 
 DECK = ROOT / "decks" / "thesis.nml"
 
@@ -188,8 +189,8 @@ one = camroller.Case(sys.argv[1], set={"operating_point.speed_rpm": 900, "film.l
 assert one.scalars["mean_torque_friction"] == float(data.mean_torque_friction.sel({"operating_point.speed_rpm": 900, "film.law": "moes"}))
 assert np.array_equal(np.asarray(one.series["contact_load"]), data.contact_load[1, 0])
 case = camroller.Case(sys.argv[1])
-camroller.run(case, set={"operating_point.speed_rpm": 900})
-assert case.numbers["operating_point.speed_rpm"] != 900
+camroller.run(case, set={"roller.mass_kg": 0.02})
+assert case.numbers["roller.mass_kg"] != 0.02
 np.linalg.inv(np.eye(300) + 1.0)
 print("fine")
 """
@@ -276,6 +277,10 @@ for attempt, kind in ((lambda: case.set("operating_point.speed_rpm\\0", 1), camr
     except kind:
         continue
     raise SystemExit("taken")
+try:
+    camroller.Case.from_text(text.encode(), folder)
+except TypeError as error:
+    assert "must be a str, not bytes" in str(error), error
 camroller.run_cases = None
 for values, kind in (([[0, 60], [0, 61]], camroller.UsageError), ([], camroller.UsageError), ("moes", TypeError), (5, TypeError)):
     try:
@@ -284,9 +289,132 @@ for values, kind in (([[0, 60], [0, 61]], camroller.UsageError), ([], camroller.
         assert "sweep" in str(error)
     else:
         raise SystemExit("a sweep of lists was run")
+try:
+    camroller.run(case, sweep={" Output.angle_step_deg": [0.5, 1]})
+except camroller.UsageError as error:
+    assert "keys of &output cannot be swept" in str(error), error
+else:
+    raise SystemExit("a sweep of angles was run")
 print("fine")
 """
     assert in_python(installed, words, DECK.parent) == ["fine"]
+
+
+def test_what_is_no_case_is_refused(installed):
+    """The library would take the memory of anything for a case."""
+    words = """
+import camroller, sys
+case = camroller.Case(sys.argv[1])
+result, follower = case.run(), camroller.Simulation(case)
+for wrong in (result, follower, sys.argv[1], None):
+    for attempt in (lambda: camroller.Simulation(wrong), lambda: camroller.Simulation.restore(wrong, b"x" * 10),
+                    lambda: camroller.Shaft(wrong), lambda: camroller.Shaft.restore(wrong, b"x" * 10),
+                    lambda: list(camroller.run_cases([wrong]))):
+        try:
+            attempt()
+        except TypeError as error:
+            assert "expected a Case, not " + type(wrong).__name__ in str(error), error
+        else:
+            raise SystemExit("taken")
+print("fine")
+"""
+    assert in_python(installed, words) == ["fine"]
+
+
+def test_keys_that_fit_only_together_are_set_at_once(installed):
+    words = """
+import camroller, sys
+values = {"cam_bearings.cam_positions_mm": [0, 50], "cam_bearings.cam_phases_deg": [0, 180], "cam_bearings.cam_lobes": [1, 2],
+          "cam_bearings.follower_angles_deg": [0, 0]}
+case = camroller.Case(sys.argv[2], set=values)
+assert len(camroller.Shaft(case).cams) == 2
+text = open(sys.argv[2]).read()
+assert len(camroller.Shaft(camroller.Case.from_text(text, sys.argv[3], set=values)).cams) == 2
+for key, value in values.items():
+    try:
+        camroller.Case(sys.argv[2]).set(key, value)
+    except camroller.DeckError:
+        continue
+    raise SystemExit("one alone is taken")
+before = case.numbers
+try:
+    case.set_all({"roller.mass_kg": 0.02, "roller.radius_mm": -1})
+except camroller.DeckError:
+    assert case.numbers == before
+print("fine")
+"""
+    assert in_python(installed, words, DECK.with_name("three_cam_head.nml"), DECK.parent) == ["fine"]
+
+
+def test_a_value_that_the_sweep_replaces_is_refused(installed):
+    words = """
+import camroller, sys
+key = "operating_point.speed_rpm"
+case = camroller.Case(sys.argv[1], set={" Operating_Point.SPEED_rpm": 777})
+assert case.run().scalars and case.numbers[key] == 777.0
+for attempt in (lambda: camroller.run(sys.argv[1], set={key: 777}), lambda: camroller.run(case), lambda: next(case.copy().sweep())):
+    try:
+        attempt()
+    except camroller.UsageError as error:
+        assert key in str(error) and "sweep" in str(error), error
+    else:
+        raise SystemExit("not used, and not told")
+assert len(camroller.run(case, sweep={"film.law": ["moes"]})) > 0
+try:
+    camroller.run(sys.argv[1], set={key: 777}, sweep={key.upper(): [700, 900]})
+except camroller.UsageError as error:
+    assert "in set and in sweep" in str(error), error
+else:
+    raise SystemExit("given twice")
+print("fine")
+"""
+    assert in_python(installed, words) == ["fine"]
+
+
+def test_torques_by_source_have_names(installed):
+    words = """
+import camroller, sys
+case = camroller.Case(sys.argv[2])
+follower, shaft, inputs = camroller.Simulation(case), camroller.Shaft(case), camroller.Inputs(60.0, 333.15)
+outcome = follower.step(2.0, inputs)
+shaft.step(2.0, inputs)
+others = ("torque_drive", "torque_friction", "torque_bearings")
+names = [name for name in shaft.values() if name.startswith("torque_") and name not in others]
+assert {"torque_tip", "torque_seal", "torque_pivot", "torque_contact"} <= set(names), names
+torques = {name: follower.value(name) for name in names}
+assert torques == {name: shaft.value(name, 1) for name in names}
+assert torques["torque_contact"] == outcome.torques[1] and torques["torque_tip"] > 0.0
+assert abs(sum(torques.values()) - outcome.torque_drive) < 1e-12
+print("fine")
+"""
+    assert in_python(installed, words, DECK.with_name("sliding_joints.nml")) == ["fine"]
+
+
+def test_mistakes_after_a_change_have_their_places_in_included_files(installed, camroller, tmp_path):
+    """Also in a case of the sweep, whose deck is without the lines of its sweep: the places that the program names."""
+    deck = split_deck(tmp_path)
+    text = deck.read_text(encoding="utf-8")
+    first = text.index("&sweep")
+    last = text.index("/\n", first) + 2
+    deck.write_text(text[first:last] + text[:first] + text[last:], encoding="utf-8")
+    values = {"lift.law": "table", "lubricant.temperature_law": "direct", "traction.shear_law": "eyring"}
+    words = """
+import camroller, json, sys
+case = camroller.Case(sys.argv[2])
+varied = next(case.sweep())[1]
+varied.set("roller.mass_kg", 0.02)
+messages = []
+for made in (case, varied):
+    try:
+        made.set_all(json.loads(sys.argv[3]))
+    except camroller.DeckError as error:
+        messages.append(str(error).split())
+print(*sum(messages, []))
+"""
+    said = run(camroller, "check", deck, *[f"--set={key}='{value}'" for key, value in values.items()])
+    expected = said.stderr[:said.stderr.index("\nremark:")].removeprefix("camroller: ").split()
+    assert f"{tmp_path}/parts/oil.nml:2:1:" in expected and expected.count("|") == 6
+    assert in_python(installed, words, deck, json.dumps(values)) == expected * 2
 
 
 def test_the_library_of_the_package_has_one_blas_thread(installed):
