@@ -17,9 +17,9 @@ export PKG_CONFIG_PATH := $(CURDIR)/build/pkgconfig:$(PKG_CONFIG_PATH)
 # -g1 has the lines of backtraces and of valgrind, and compiles in five sixths of the time that -g takes.
 COMMON_FLAGS := -std=f2018 -g1 -ffp-contract=off -fbacktrace -Ibuild/commit
 # -Og makes the checked tests take 0.6 of the time. What gfortran 12 then guesses of values that may not be set is wrong with allocatable
-# components; reals that are truly not set are found by -finit-real=snan.
+# components; reals that are truly not set are found by -finit-real=snan, in components of derived types with -finit-derived.
 export DEBUG_FLAGS := $(COMMON_FLAGS) -g -Og -Wall -Wextra -Wimplicit-interface -Wno-maybe-uninitialized -Wno-uninitialized \
-  -fcheck=all -ffpe-trap=invalid,zero,overflow -finit-real=snan
+  -fcheck=all -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived
 export OPTIMISED_FLAGS := $(COMMON_FLAGS) -O3
 # The program: with -flto small procedures of other modules are inlined, a tenth fewer instructions a case and not one bit of a result
 # another (doc/notes/batch.md). Linking so takes minutes: `make test` links its tests with the machine code that the objects hold as well,

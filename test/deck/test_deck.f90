@@ -291,7 +291,8 @@ contains
       call expect_mistake(error, "ratio = 0.29 /", "ratio = 0.29 hardness_GPa = 8 / "// &
          & "&asperity boundary_coefficient = 0.1 law = 'zhao_maietta_chang' roughness_product = 0.02 /", &
          & "8:215: asperity law 'zhao_maietta_chang' needs a 'roughness_product' of 0.025 or more")
-      call expect_mistake(error, "", "&valve_tip pad_radius_mm = 8 law = 'stribeck' friction_coefficient = 0.1 /", &
+      call expect_mistake(error, "", "&valve_tip pad_radius_mm = 8 law = 'stribeck' friction_coefficient = 0.1 "// &
+         & "reference_viscosity_Pa_s = 0.01 reference_load_N = 300 /", &
          & "11:36: law 'stribeck' needs 'decay_speed_m_s'")
       call expect_mistake(error, "finger_kg = 0.0418", "", "6:1: &masses needs 'finger_kg', 'finger_inertia_kg_m2' or both")
    end subroutine law_relations

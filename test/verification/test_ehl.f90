@@ -382,8 +382,8 @@ contains
       type(ehl_state_t) :: state
       type(ehl_films_t) :: films, coarse
       real(wp), parameter :: materials(3) = [1000.0_wp, 4500.0_wp, 7500.0_wp]
-      ! Contacts in range, of 72
-      integer, parameter :: expected = 45
+      ! Contacts in range, of 108
+      integer, parameter :: expected = 90
       integer :: law, load, speed, material, status, solved
       logical :: converged
       character(len=80) :: text

@@ -434,13 +434,15 @@ contains
       type(case_t) :: case
       type(result_t) :: result
       type(error_t), allocatable :: failure
+      integer :: place
 
       case = thesis_case()
       call run(case, result, error)
       if (allocated(error)) return
-      result%summary(find_quantity(result%summary, "train_frequency"))%name = "another"
+      place = find_quantity(result%summary, "mean_slip_ratio")
+      result%summary(place)%name = "another"
       call judge_assumptions(case, result, failure)
-      call expect_error(error, failure, kind_internal, "train_frequency")
+      call expect_error(error, failure, kind_internal, "mean_slip_ratio")
    end subroutine test_lacking
 
 end module test_result_remarks
