@@ -226,7 +226,7 @@ contains
       integer :: i, checked, number
 
       call read_deck(deck, config%subject, config%overrides, error, columns)
-      call add_number_remarks(deck, error)
+      call add_number_remarks(deck, error, .false.)
       if (.not. allocated(error)) call check_blas_memory(1, error)
       if (allocated(error)) return
       if (config%has_no_sweep) call drop_sweep(deck)
@@ -238,7 +238,7 @@ contains
          call build_models(case, models, error)
          if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, number))
          call add_places(deck, error)
-         call add_number_remarks(deck, error)
+         call add_number_remarks(deck, error, .true.)
          if (allocated(error)) return
          if (.not. allocated(remarks)) call judge_laws(models(1), remarks)
       end do

@@ -180,18 +180,24 @@ contains
       words = fixed_text(real(now - console%start, wp)/real(rate, wp), 2)//" s"
    end function seconds_since
 
-   !> Add to an error what may be its reason: numbers of the deck that no engine has.
-   subroutine add_number_remarks(deck, error)
+   !> Add to an error what may be its reason: numbers of the deck that no engine has, or all remarks on a deck without mistakes.
+   subroutine add_number_remarks(deck, error, is_whole)
       !> The deck, as far as it could be read
       type(deck_t), intent(in) :: deck
       !> An error on its way up; left alone where not allocated
       type(error_t), allocatable, intent(inout) :: error
+      !> Is the deck without mistakes?
+      logical, intent(in) :: is_whole
 
       type(line_t), allocatable :: remarks(:)
       integer :: i
 
       if (.not. allocated(error)) return
-      call list_number_remarks(deck, remarks)
+      if (is_whole) then
+         call list_deck_remarks(deck, remarks)
+      else
+         call list_number_remarks(deck, remarks)
+      end if
       do i = 1, size(remarks)
          error%message = error%message//new_line("a")//"remark: "//remarks(i)%text
       end do

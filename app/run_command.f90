@@ -49,7 +49,7 @@ contains
 
       call check_blas_memory(1, error)
       if (.not. allocated(error)) call read_deck(deck, config%subject, config%overrides, error, columns)
-      call add_number_remarks(deck, error)
+      call add_number_remarks(deck, error, .false.)
       if (allocated(error)) return
       if (config%has_no_sweep) call drop_sweep(deck)
       if (.not. config%is_quiet) call tell_deck_remarks(deck)
@@ -80,7 +80,7 @@ contains
       call heed_stop_signals()
       call check_blas_memory(1, error)
       if (.not. allocated(error)) call read_deck(deck, config%subject, config%overrides, error, columns)
-      call add_number_remarks(deck, error)
+      call add_number_remarks(deck, error, .false.)
       if (agreed_code(team, error) /= 0) return
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_deck_remarks(deck)
       call start_console(console, config%is_quiet .or. team%rank /= 0, real(config%log_interval, wp))
@@ -230,7 +230,7 @@ contains
       logical, intent(in) :: has_told_deck
 
       type(line_t), allocatable :: earlier(:)
-      character(len=:), allocatable :: words
+      character(len=:), allocatable :: words, places
       integer :: i, k
 
       if (.not. allocated(remarks%groups)) return
@@ -244,7 +244,10 @@ contains
             call tell(words//": "//group%worst%text//new_line("a"))
          end associate
       end do
-      if (size(remarks%groups) > 0) call tell("all remarks are in /run/warnings of the result file"//new_line("a"))
+      places = ""
+      if (size(earlier) > 0) places = " and /deck/remarks"
+      if (size(remarks%groups) > 0) places = places//" and /run/warnings"
+      if (places /= "") call tell("all remarks are in"//places(5:)//" of the result file"//new_line("a"))
    end subroutine tell_remarks
 
 end module camroller_run_command

@@ -93,14 +93,16 @@ def table_of(result):
 
 
 def remarks_of(result):
-    """Remarks, those that differ in their numbers only once with the cases that have them, and failures."""
+    """Remarks on the deck; of the cases, those that differ in their numbers only once with the cases that have them; failures."""
     with opened(result.path) as file:
+        of_deck = [text_of(text) for text in file["deck/remarks"][()]] if "deck/remarks" in file else []
         texts = [text_of(text) for text in file["run/warnings"][()]] if "run/warnings" in file else []
     kinds = {}
     for case, text in enumerate(texts):
         for line in filter(None, map(str.strip, text.splitlines())):
-            kinds.setdefault(NUMBER.sub("#", line), {}).setdefault(case, line)
-    lines = []
+            if line not in of_deck:
+                kinds.setdefault(NUMBER.sub("#", line), {}).setdefault(case, line)
+    lines = [f"<li>{html.escape(line)}</li>" for line in of_deck]
     for found in list(kinds.values())[:MOST_ROWS]:
         case, line = next(iter(found.items()))
         where = "" if result.cases == 1 else f"case {case}: " if len(found) == 1 else f"{len(found)} of {result.cases} cases, first case {case}: "

@@ -67,8 +67,13 @@ def test_remarks_of_a_kind_are_one_line_and_estimates_are_told(tmp_path):
             file.require_group("deck/values")[f"lubricant.{key}"] = words
     page = page_of(read_result(source))
     remarks = re.findall(r"<li>(.*)</li>", page)
-    assert remarks == ["3 of 9 cases, first case 6: lobe 1: the joint lacks 6 N", "3 of 9 cases, first case 6: lobe 2: the joint lacks 6 N",
-                       "case 8: the film is thin"]
+    of_cases = ["3 of 9 cases, first case 6: lobe 1: the joint lacks 6 N", "3 of 9 cases, first case 6: lobe 2: the joint lacks 6 N",
+                "case 8: the film is thin"]
+    assert remarks == of_cases
+    with h5py.File(source, "a") as file:
+        file["deck/remarks"] = ["roller.mass_kg = 9 is unusual", "the film is thin"]
+    remarks = re.findall(r"<li>(.*)</li>", page_of(read_result(source)))
+    assert remarks == ["roller.mass_kg = 9 is unusual", "the film is thin", *of_cases[:2]]
     estimate = "Pressure-viscosity coefficient: estimated by So and Klaus"
     assert estimate in page and "range of SAE grade 5W-30" in page
     with h5py.File(source, "a") as file:

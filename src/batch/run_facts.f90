@@ -9,14 +9,15 @@ module camroller_run_facts
    use camroller_deck, only : deck_t
    use camroller_deck_document, only : echo_t, get_echo
    use camroller_deck_files, only : list_case_tables
+   use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_tables, only : find_table, table_groups, wanted_columns
    use camroller_deck_sweep, only : measured_numbers, measured_prefix, sweep_numbers, sweep_size, sweep_t, sweep_words
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_text_attribute
    use camroller_mistakes, only : mistakes_t
-   use camroller_text_lines, only : line_t
+   use camroller_text_lines, only : add_line, line_t
    use camroller_number_text, only : hexadecimal => hexadecimal_text, integer_text
-   use camroller_output, only : output_t, write_deck, write_deck_table, write_measured, write_overrides, &
+   use camroller_output, only : output_t, write_deck, write_deck_lines, write_deck_table, write_measured, &
       & write_run, write_sweep, write_table_count
    use camroller_part_scan, only : study_facts_t
    use camroller_quotes, only : without_quotes
@@ -107,7 +108,7 @@ contains
       call write_measured(writer, names, sweep%measured%unit, values, error)
    end subroutine write_columns
 
-   !> What stands beside the deck: overrides and tables.
+   !> What stands beside the deck: overrides, remarks and tables.
    subroutine write_beside(writer, deck, error)
       !> The result file
       type(output_t), intent(inout) :: writer
@@ -116,22 +117,42 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: texts(:)
-      integer :: i, length
+      type(line_t), allocatable :: overrides(:), remarks(:)
+      integer :: i
 
-      length = 1
+      allocate (overrides(0))
       do i = 1, size(deck%overrides)
-         length = max(length, len(deck%overrides(i)%text))
+         call add_line(overrides, deck%overrides(i)%text)
       end do
-      allocate (character(len=length) :: texts(size(deck%overrides)))
-      do i = 1, size(deck%overrides)
-         texts(i) = deck%overrides(i)%text
-      end do
-      if (size(texts) > 0) call write_overrides(writer, texts, error)
+      call list_deck_remarks(deck, remarks)
+      call write_lines(writer, "overrides", overrides, error)
+      if (.not. allocated(error)) call write_lines(writer, "remarks", remarks, error)
       do i = 1, size(table_groups)
          if (.not. allocated(error)) call write_tables(writer, deck, trim(table_groups(i)), error)
       end do
    end subroutine write_beside
+
+   !> Lines of text, where there are any.
+   subroutine write_lines(writer, name, lines, error)
+      !> The result file
+      type(output_t), intent(inout) :: writer
+      !> What they are called in the file
+      character(len=*), intent(in) :: name
+      !> The lines
+      type(line_t), intent(in) :: lines(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: texts(:)
+      integer :: i
+
+      if (size(lines) == 0) return
+      allocate (character(len=maxval([(len(lines(i)%text), i=1, size(lines))])) :: texts(size(lines)))
+      do i = 1, size(lines)
+         texts(i) = lines(i)%text
+      end do
+      call write_deck_lines(writer, name, texts, error)
+   end subroutine write_lines
 
    !> The table of a group, where there is one, and those that cases name, under the names in the deck. One that cannot be read is
    !> left out: its cases have no result.

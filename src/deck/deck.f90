@@ -25,8 +25,8 @@ module camroller_deck
    implicit none
    private
 
-   public :: deck_t, override_t, add_override, read_deck, parse_deck, read_again, make_case, make_sweep_case, add_places
-   public :: drop_sweep, is_read
+   public :: deck_t, override_t, add_override, read_deck, parse_deck, read_again, make_settings, make_case, make_sweep_case
+   public :: add_places, drop_sweep, is_read
 
    !> A deck without mistakes
    type :: deck_t
@@ -199,8 +199,6 @@ contains
 
       type(settings_t) :: settings
       type(deck_tables_t) :: tables
-      type(mistakes_t) :: mistakes
-      integer :: i
 
       if (.not. is_read(deck)) then
          call raise(error, kind_usage, "make_case: the deck has not been read; call read_deck or parse_deck first")
@@ -210,6 +208,26 @@ contains
          call fill_case(deck%settings, deck%tables, case)
          return
       end if
+      call make_settings(deck, overrides, settings, tables, error)
+      if (.not. allocated(error)) call fill_case(settings, tables, case)
+   end subroutine make_case
+
+   !> Settings and tables of a deck, with other values for some keys.
+   subroutine make_settings(deck, overrides, settings, tables, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Values other than the deck's
+      type(override_t), intent(in) :: overrides(:)
+      !> The settings
+      type(settings_t), intent(out) :: settings
+      !> The tables that they name
+      type(deck_tables_t), intent(out) :: tables
+      !> Deck error where the values do not fit the deck or each other
+      type(error_t), allocatable, intent(out) :: error
+
+      type(mistakes_t) :: mistakes
+      integer :: i
+
       settings = deck%settings
       tables = deck%tables
       do i = 1, size(overrides)
@@ -218,9 +236,7 @@ contains
       call complete(settings, deck%folder, tables, mistakes)
       call place_mistakes(deck%origins, deck%shape%lines, mistakes)
       call raise_mistakes(mistakes, deck%name, deck%shape%lines, error)
-      if (allocated(error)) return
-      call fill_case(settings, tables, case)
-   end subroutine make_case
+   end subroutine make_settings
 
    !> Has a deck been read?
    pure function is_read(deck) result(verdict)

@@ -15,13 +15,16 @@ module camroller_deck_remarks
    use camroller_deck_values, only : read_value, value_t
    use camroller_unit_guess, only : ask_kinematic, is_usual, say_meant
    use camroller_deck_sense, only : list_odd_pairs
-   use camroller_deck_sweep, only : axis_of, sweep_axis_t
+   use camroller_deck_files, only : list_case_tables
+   use camroller_deck_sweep, only : axis_of, first_case, sweep_axis_t, sweep_overrides
    use camroller_key_uses, only : is_idle, say_idle
    use camroller_engine, only : speed_names
    use camroller_settings, only : settings_t, get_word, has_group, take, find_value
    use camroller_deck_table_remarks, only : remark_lift, remark_pressure, remark_rows
+   use camroller_deck_tables, only : deck_tables_t, find_table, table_groups
+   use camroller_table_file, only : table_t
    use camroller_case, only : case_t
-   use camroller_deck, only : deck_t, make_case, override_t
+   use camroller_deck, only : add_override, deck_t, make_case, make_settings, override_t
    use camroller_error, only : error_t
    use camroller_oil_checks, only : compare_hths, find_far_points
    implicit none
@@ -63,11 +66,78 @@ contains
       call remark_viscosity(deck, remarks)
       call remark_hths(deck, remarks)
       call remark_temperature(deck, remarks)
-      call remark_lift(deck%settings, "lift", deck%tables%lift, remarks)
-      call remark_lift(deck%settings, "second_lift", deck%tables%second_lift, remarks)
-      call remark_pressure(deck%settings, deck%tables%pressure, remarks)
+      do i = 1, size(table_groups)
+         call remark_tables(deck, trim(table_groups(i)), .false., remarks)
+      end do
       call remark_unused(deck, remarks)
    end subroutine list_deck_remarks
+
+   !> The table of a group: that of the deck, or those that its cases name, each as the first case has it that names it.
+   subroutine remark_tables(deck, group, is_of_rows, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> The group
+      character(len=*), intent(in) :: group
+      !> On single rows, or on the table as a whole?
+      logical, intent(in) :: is_of_rows
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(line_t), allocatable :: names(:)
+      type(override_t), allocatable :: overrides(:)
+      type(settings_t) :: settings
+      type(deck_tables_t) :: tables
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: own
+      integer :: i, number, axis, law
+
+      axis = axis_of(deck%sweep, group//".table")
+      law = axis_of(deck%sweep, group//".law")
+      call list_case_tables(deck, group, names)
+      if (axis == 0) then
+         call remark_table(deck%settings, deck%tables, group, is_of_rows, remarks)
+      else
+         own = get_word(deck%settings, group, "table")
+         if (.not. any([(names(i)%text == own, i=1, size(names))])) call add_line(names, own)
+      end if
+      do i = 1, size(names)
+         if (axis > 0) then
+            number = first_case(deck%sweep, axis, names(i)%text)
+         else
+            number = first_case(deck%sweep, law, "table")
+         end if
+         if (number == 0) cycle
+         call sweep_overrides(deck%sweep, number, overrides)
+         if (law > 0) call add_override(overrides, group//".law='table'")
+         call make_settings(deck, overrides, settings, tables, failure)
+         if (.not. allocated(failure)) call remark_table(settings, tables, group, is_of_rows, remarks)
+      end do
+   end subroutine remark_tables
+
+   !> The table of a group as a case has it.
+   subroutine remark_table(settings, tables, group, is_of_rows, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Their tables
+      type(deck_tables_t), intent(in) :: tables
+      !> The group
+      character(len=*), intent(in) :: group
+      !> On single rows, or on the table as a whole?
+      logical, intent(in) :: is_of_rows
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(table_t) :: table
+
+      call find_table(tables, group, table)
+      if (group == "gas_force") then
+         if (.not. is_of_rows) call remark_pressure(settings, table, remarks)
+      else if (is_of_rows) then
+         call remark_rows(settings, group, table, remarks)
+      else
+         call remark_lift(settings, group, table, remarks)
+      end if
+   end subroutine remark_table
 
    !> Values given beside the deck that no case of the sweep has, since it varies their keys.
    subroutine remark_unused(deck, remarks)
@@ -121,8 +191,9 @@ contains
             end if
          end associate
       end do
-      call remark_rows(deck%settings, "lift", deck%tables%lift, remarks)
-      call remark_rows(deck%settings, "second_lift", deck%tables%second_lift, remarks)
+      do i = 1, size(table_groups)
+         call remark_tables(deck, trim(table_groups(i)), .true., remarks)
+      end do
    end subroutine list_number_remarks
 
    !> Usual speeds where an engine's deck gives that of the crankshaft.

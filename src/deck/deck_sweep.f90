@@ -21,7 +21,7 @@ module camroller_deck_sweep
    public :: axis_of, sweep_size, axis_size, repeated_value, sweep_position, sweep_overrides, get_sweep_value, get_values_beside
    public :: sweep_numbers, sweep_words
    public :: measured_numbers, measured_prefix, nothing_measured
-   public :: case_in_words
+   public :: case_in_words, first_case
 
    !> Ways to make cases of values
    character(len=*), parameter :: sweep_kind_names(*) = [character(len=name_length) :: "grid", "zip", "table", sample_names]
@@ -214,6 +214,35 @@ contains
          end if
       end if
    end subroutine get_sweep_value
+
+   !> First case in which a key that is no number has a value; 0 where there is none.
+   pure function first_case(sweep, axis, word) result(case_number)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the key
+      integer, intent(in) :: axis
+      !> The value, without quotes
+      character(len=*), intent(in) :: word
+      !> Number of the case, from 1
+      integer :: case_number
+
+      character(len=:), allocatable :: text
+      integer :: stride, last, i
+
+      stride = 1
+      last = sweep_size(sweep)
+      if (sweep%kind == "grid") then
+         do i = axis + 1, size(sweep%axes)
+            stride = stride*axis_size(sweep%axes(i))
+         end do
+         last = stride*axis_size(sweep%axes(axis))
+      end if
+      do case_number = 1, last, stride
+         call get_sweep_value(sweep, axis, case_number, text)
+         if (without_quotes(text) == word) return
+      end do
+      case_number = 0
+   end function first_case
 
    !> Values of the keys that vary and are not in some groups: cases that have them in common differ in these groups alone.
    pure subroutine get_values_beside(sweep, case_number, groups, text)

@@ -7,9 +7,10 @@
 !> `/series/<name>` (case, cam_angle) and `/summary/<name>` (case) carry `units`, `long_name` and `source`;
 !> `/summary/status` (case) is 0 or the kind of the error, whose message is in `/run/messages` (case), or -1 for a case that was
 !> not computed;
-!> `/deck/text` is the deck as given, `/deck/overrides` the values given beside it, `/deck/values/<group.key>` what came of
-!> all of them, `/deck/table_<group>` (column, row) the tables that it names, `/deck/table_<group>_<number>` those that its cases
-!> name beside them, counted by the attribute `tables_<group>` of `/deck`; `/sweep/<group.key>` (case) are the keys that vary;
+!> `/deck/text` is the deck as given, `/deck/overrides` the values given beside it, `/deck/remarks` the remarks on both and on
+!> tables, `/deck/values/<group.key>` what came of all of them, `/deck/table_<group>` (column, row) the tables that it names,
+!> `/deck/table_<group>_<number>` those that its cases name beside them, counted by the attribute `tables_<group>` of `/deck`;
+!> `/sweep/<group.key>` (case) are the keys that vary;
 !> `/effects/<name>` (case) and `/effects/reasons` (case) tell which effects took part, where the deck leaves that to the program;
 !> `/run` has attributes, `/run/study_values`, by which one study is told from another, and `/run/warnings` (case) where there are
 !> warnings.
@@ -28,14 +29,14 @@ module camroller_output
       & result_format, start_file
    use camroller_output_cases, only : check_position, create_layout => add_layout, gather_row, write_remark, write_rows, &
       & write_series_row, write_status
-   use camroller_output_facts, only : write_deck, write_deck_table, write_measured, write_overrides, write_run, write_sweep, &
+   use camroller_output_facts, only : write_deck, write_deck_lines, write_deck_table, write_measured, write_run, write_sweep, &
       & write_table_count
    implicit none
    private
 
    public :: output_t, output_options_t, result_format, not_computed
    public :: open_output, add_layout, write_outcome, close_output, abandon_output
-   public :: write_deck, write_deck_table, write_table_count, write_overrides, write_sweep, write_measured, write_run
+   public :: write_deck, write_deck_table, write_table_count, write_deck_lines, write_sweep, write_measured, write_run
 
 contains
 

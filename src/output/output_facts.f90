@@ -14,7 +14,7 @@ module camroller_output_facts
    implicit none
    private
 
-   public :: write_deck, write_overrides, write_deck_table, write_table_count, write_sweep, write_measured, write_run
+   public :: write_deck, write_deck_lines, write_deck_table, write_table_count, write_sweep, write_measured, write_run
 
    !> Values of a swept key: numbers or names
    interface write_sweep
@@ -62,12 +62,14 @@ contains
       if (allocated(error)) call abandon_output(writer)
    end subroutine write_deck
 
-   !> Store values given beside the deck.
-   subroutine write_overrides(writer, overrides, error)
+   !> Store what belongs to the deck and is lines of text: values given beside it, as `group.key=value`, or remarks on it.
+   subroutine write_deck_lines(writer, name, lines, error)
       !> The writer
       type(output_t), intent(inout) :: writer
-      !> The values, as `group.key=value`
-      character(len=*), intent(in) :: overrides(:)
+      !> What they are called in the file
+      character(len=*), intent(in) :: name
+      !> The lines
+      character(len=*), intent(in) :: lines(:)
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
@@ -76,14 +78,14 @@ contains
 
       call check_open(writer, error)
       if (allocated(error)) return
-      call reserve_file(writer%file, object_size + size(overrides)*(text_size + len(overrides)), error)
-      if (.not. allocated(error)) call create_texts(writer%deck, "overrides", shape(overrides), dataset, error)
-      do i = 1, size(overrides)
-         if (.not. allocated(error)) call write_text(dataset, [i - 1], overrides(i), error)
+      call reserve_file(writer%file, object_size + size(lines)*(text_size + len(lines)), error)
+      if (.not. allocated(error)) call create_texts(writer%deck, name, shape(lines), dataset, error)
+      do i = 1, size(lines)
+         if (.not. allocated(error)) call write_text(dataset, [i - 1], lines(i), error)
       end do
       call close_object(dataset)
       if (allocated(error)) call abandon_output(writer)
-   end subroutine write_overrides
+   end subroutine write_deck_lines
 
    !> Store a table that the deck names.
    subroutine write_deck_table(writer, group, path, heading, x, y, error)

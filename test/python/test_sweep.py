@@ -50,6 +50,25 @@ def test_file_equals_that_of_run(camroller, deck, reference, tmp_path):
         assert len(sweep["series"]) == 0
 
 
+def test_remarks_on_the_deck_are_in_the_file_however_it_is_made(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 400, 900")
+    values = "--set", "roller.mass_kg=0.9"
+    done(camroller, "run", deck, *values, "--quiet", "-o", "run.h5", folder=tmp_path)
+    told = done(camroller, "sweep", deck, *values, "-o", "sweep.h5", folder=tmp_path).stderr
+    for shard in ("1/2", "2/2"):
+        done(camroller, "sweep", deck, *values, "-o", "merged.h5", "--shard", shard, "--quiet", folder=tmp_path)
+    done(camroller, "merge", deck, *values, "-o", "merged.h5", folder=tmp_path)
+    done(camroller, "sweep", deck, "-o", "usual.h5", folder=tmp_path)
+    remark = "roller.mass_kg = 0.9 is unusual: engines have 0.001 to 0.3 kg"
+    assert f"remark: {remark}\n" in told and told.endswith("all remarks are in /deck/remarks and /run/warnings of the result file\n")
+    for name in ("run", "sweep", "merged"):
+        with h5py.File(tmp_path / f"{name}.h5") as file:
+            assert list(file["deck/remarks"].asstr()) == [remark]
+        assert "the same to the last bit" in done(camroller, "rerun", tmp_path / f"{name}.h5", folder=tmp_path).stdout
+    with h5py.File(tmp_path / "usual.h5") as file:
+        assert "remarks" not in file["deck"]
+
+
 @pytest.mark.parametrize("sweep", ["key_1 = 'case.energy' values_1 = 'source', 'consistent' "
                                    "key_2 = 'operating_point.speed_rpm' values_2 = 300, 900",
                                    "key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 60, 31, 31.5"], ids=["quantities", "failure"])
