@@ -6,6 +6,7 @@ module camroller_cam_check
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_minimum, only : minimum_t, start_minimum, narrow_minimum
    use camroller_kinds, only : wp, pi
+   use camroller_lift, only : is_tabulated
    use camroller_kinematics, only : position_t
    use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, next_angle
    use camroller_model, only : model_t, evaluate_geometry
@@ -93,6 +94,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(position_t) :: position
+      character(len=:), allocatable :: advice
       integer :: status
 
       bend = 0.0_wp
@@ -110,10 +112,12 @@ contains
             & ", at a lift of "//in_mm(position%lift)//" mm, with mechanism.pivot_to_roller_mm = "//in_mm(model%linkage%a)// &
             & " and mechanism.pivot_to_cam_mm = "//in_mm(model%linkage%d))
       else if (position%equivalent_radius <= 0.0_wp) then
+         advice = "a larger mechanism.base_radius_mm, a smaller roller or a longer or lower lift avoids it"
+         if (is_tabulated(model%lift_law)) advice = "noise of a lift table, or a row that is off, bends the path so: "// &
+            & "'smoothing_um' beside the table, or the right row, avoids it; else "//advice
          call raise(error, kind_domain, "cam undercut: the path of the roller's centre has a radius of curvature of "// &
             & in_mm(1.0_wp/position%pitch_curvature)//" mm at "//cam_angle_text(angle, 2)//", smaller than roller.radius_mm = "// &
-            & in_mm(model%roller_radius)//"; a larger mechanism.base_radius_mm, a smaller roller or a longer or lower lift "// &
-            & "avoids it")
+            & in_mm(model%roller_radius)//"; "//advice)
       else if (bend > 1.0_wp) then
          call raise(error, kind_domain, "hollow flank: the cam's radius of curvature is "// &
             & in_mm(model%roller_radius - 1.0_wp/position%pitch_curvature)//" mm at "//cam_angle_text(angle, 2)// &

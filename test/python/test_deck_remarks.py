@@ -247,6 +247,42 @@ def test_an_undercut_by_a_row_that_is_off_names_the_row(camroller, tmp_path):
     assert f"remark: {table}:79: " in result.stderr and result.stderr.index("cam undercut") < result.stderr.index(":79: ")
 
 
+def test_an_undercut_of_a_measured_lift_leads_to_its_noise(camroller, tmp_path):
+    """Rounded to 10 um, the table of the decks undercuts the cam, and smoothed by the noise that is told it does not."""
+    table = rounded_lift(tmp_path, 0.01)
+    words = [camroller, "check", "decks/tabulated_lift.nml", "--set", f"lift.table={table}"]
+    result = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, check=False)
+    assert result.returncode == 4 and "cam undercut" in result.stderr
+    assert "noise of a lift table, or a row that is off, bends the path so: 'smoothing_um' beside the table" in result.stderr
+    noise = re.search(rf"remark: {table}: the lift has noise of about ([\d.]+) um", result.stderr)[1]
+    remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}", f"lift.smoothing_um={noise}")
+    # of other laws nothing is said of tables
+    assert "smoothing_um" not in refusal_of(camroller, "lift.opening_half_angle_deg=20", "lift.closing_half_angle_deg=20")
+
+
+def test_each_table_of_a_sweep_has_the_remarks_of_a_run(camroller, tmp_path):
+    noisy, in_metres = rounded_lift(tmp_path, 0.002), tmp_path / "metres.txt"
+    off, _ = shifted_table(tmp_path / "off.txt", 78, 0.003)
+    rows = [line.split() for line in (ROOT / "decks/tables/polynomial_lift.txt").read_text().splitlines() if line.strip()[:1].isdigit()]
+    in_metres.write_text("".join(f"{angle} {float(lift) / 1000:.9f}\n" for angle, lift in rows))
+    tables = [noisy, off, in_metres]
+    single = [remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}") for table in tables]
+    assert [len(remarks) for remarks in single] == [1, 1, 1], single
+    deck = tmp_path / "deck.nml"
+    text = (ROOT / "decks/tabulated_lift.nml").read_text().replace("tables/polynomial_lift.txt", str(ROOT / "decks/tables/polynomial_lift.txt"))
+    names = ", ".join(f"'{table}'" for table in tables)
+    for sweep in (f"key_1 = 'operating_point.speed_rpm' values_1 = 600, 900 key_2 = 'lift.table' values_2 = {names}",
+                  f"kind = 'zip' key_1 = 'lift.table' values_1 = {names}, '{noisy}' key_2 = 'operating_point.speed_rpm' values_2 = 600, 700, 800, 900",
+                  f"kind = 'sobol' cases = 16 key_1 = 'lift.table' values_1 = {names}"):
+        deck.write_text(f"{text}&sweep {sweep} /\n")
+        remarks = remarks_of(camroller, deck)
+        assert sorted(remarks) == sorted(line for remarks in single for line in remarks)
+    # what the deck itself names is no table of the sweep
+    deck.write_text(text.replace(str(ROOT / "decks/tables/polynomial_lift.txt"), str(noisy))
+                    + f"&sweep key_1 = 'lift.table' values_1 = '{off}', '{in_metres}' /\n")
+    assert sorted(remarks_of(camroller, deck)) == sorted(single[1] + single[2])
+
+
 def refusal_of(camroller, *values):
     """The words with which `check` refuses a deck."""
     words = [camroller, "check", "decks/thesis.nml", *(word for value in values for word in ("--set", value))]
