@@ -18,7 +18,7 @@ module camroller_flexible_setup
    implicit none
    private
 
-   public :: rest_t, set_flexible, find_rest, base_load
+   public :: rest_t, set_flexible, find_rest, base_load, seat_sink
 
    !> The train at rest on the base circle
    type :: rest_t
@@ -204,6 +204,18 @@ contains
       load = -(case%lash_adjuster%supply_pressure*area + case%lash_adjuster%spring_force) &
          & /(along + cos(case%mechanism%adjuster_tilt)*closed%normal_arm/closed%valve_arm)
    end function base_load
+
+   !> How far the spring alone presses the closed valve into its seat: by that a lash is less, and of a smaller one nothing is left.
+   pure function seat_sink(flexible, train) result(sink)
+      !> The train
+      type(flexible_t), intent(in) :: flexible
+      !> Its masses and spring
+      type(train_t), intent(in) :: train
+      !> Way of the valve at rest [m]
+      real(wp) :: sink
+
+      sink = train%stiffness*train%precompression/(flexible%seat_stiffness + train%stiffness)
+   end function seat_sink
 
    !> The train at rest on the base circle under a given contact load, without friction: `W n + F_p u_v + F_A u_h + side = 0`.
    !>

@@ -48,8 +48,9 @@ contains
       call add_number(schema, "seat_restitution_speed_m_s", positive, "speed of that impact", &
          & default=standard%seat_restitution_speed)
       call add_number(schema, "lash_mm", not_negative, "clearance at the pad of a valve that touches its seat without force, "// &
-         & "of a train without a lash adjuster that nothing presses together on the base circle; the closed valve sinks into "// &
-         & "its seat by the spring's force over seat_stiffness_N_m, and has as much more", default=standard%lash)
+         & "of a train without a lash adjuster; 0: the base circle load presses it together. The closed valve sinks into its "// &
+         & "seat by the spring's force over seat_stiffness_N_m, and has as much less: below that the spring presses the "// &
+         & "roller onto the base circle", default=standard%lash)
       call add_surge_keys(schema)
       call add_adjuster_keys(schema)
    end subroutine add_dynamics_keys

@@ -189,7 +189,7 @@ contains
          & number_text(value(2), digits)//" at 100 degC are unusual: a viscosity index "//words//"; are they of the same oil?")
    end subroutine compare_viscosities
 
-   !> With lash nothing presses the roller onto the base circle.
+   !> With lash the base circle load of a rigid train is not there.
    subroutine compare_lash(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -204,8 +204,8 @@ contains
 
       call get(settings, left_out, "dynamics.lash_mm spring.base_circle_load_N", value, are_there)
       if (are_there .and. all(value > 0.0_wp)) call add_line(remarks, "spring.base_circle_load_N = "// &
-         & number_text(value(2), digits)//" does not load the flexible train, which has lash on its base circle; margins and "// &
-         & "estimates of the rigid train have it")
+         & number_text(value(2), digits)//" does not load the flexible train, whose clearance dynamics.lash_mm gives; margins "// &
+         & "and estimates of the rigid train have it")
    end subroutine compare_lash
 
    !> The coefficient of asperities is that of the logarithmic law at its reference, and within its bounds.

@@ -97,7 +97,7 @@ contains
       end do
       if (.not. allocated(model%flexible)) return
       if (model%flexible%lash > 0.0_wp) then
-         train%trouble = "nothing holds a train with lash on the base circle"
+         train%trouble = "the load of a train with lash on its base circle is not that of a rigid one"
          return
       end if
       call find_modes(model, outlook)

@@ -10,7 +10,7 @@ module camroller_flexible_cycle
    use camroller_model, only : model_t
    use camroller_ode_problem, only : counters_t
    use camroller_trajectory, only : trajectory_t
-   use camroller_flexible_setup, only : rest_t, find_rest
+   use camroller_flexible_setup, only : rest_t, find_rest, seat_sink
    use camroller_flexible_train, only : resolution_t, state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
    use camroller_flexible_problem, only : largest_sliding_scale
    use camroller_flexible_turn, only : turn_t, set_sliding_tolerance, integrate_turn
@@ -102,7 +102,7 @@ contains
       state = 0.0_wp
       if (model%flexible%lash > 0.0_wp) then
          state(at_finger) = model%linkage%base_angle
-         state(at_lift) = -model%train%stiffness*model%train%precompression/(model%flexible%seat_stiffness + model%train%stiffness)
+         state(at_lift) = -seat_sink(model%flexible, model%train)
          return
       end if
       call find_rest(model%flexible, model%linkage, model%train, model%base_circle_load, rest, error)

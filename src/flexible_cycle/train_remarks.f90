@@ -7,6 +7,7 @@ module camroller_train_remarks
    use camroller_flexible_measures, only : bounce_height, bounces, check_share, closed_load, coil_compression, coil_ratio, &
       & event_check_share, event_part, highest_plunger, largest_lift, largest_load, losses_of_contact, &
       & lowest_plunger, seating_speed, smallest_lift, smallest_pivot_force, tension_share
+   use camroller_flexible_setup, only : seat_sink
    use camroller_flexible_solution, only : flexible_solution_t
    use camroller_flexible_train, only : at_lift, at_plunger, at_pressure
    use camroller_gas, only : gas_force
@@ -16,7 +17,7 @@ module camroller_train_remarks
    use camroller_model, only : evaluate_geometry, model_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_ode_problem, only : counters_t
-   use camroller_remarks, only : add_remark, bouncing_valve, empty_chamber, long_period, lost_contact, missing_lift, &
+   use camroller_remarks, only : add_remark, bouncing_valve, empty_chamber, long_period, lost_contact, lost_lash, missing_lift, &
       & no_period, open_pivot, open_valve, pressed_seat, relieved_spring, remark_t, rising_plunger, shut_valve, &
       & sinking_plunger, stopped_plunger
    use camroller_train_outlook, only : gas_share
@@ -44,6 +45,7 @@ contains
 
       call write_speed(model%speed, model%crank_turns, 6, speed)
       call judge_period(model, solution, speed, remarks)
+      call judge_lash(model, remarks)
       call judge_lift(model, solution, speed, remarks)
       if (lost_share > 0.0_wp) then
          text = "cam and roller lose contact "//trim(times_text(solution%mean(losses_of_contact)))//" per cycle, for "// &
@@ -81,6 +83,21 @@ contains
             & "to its solid length its coils clash", solution%highest(coil_ratio))
       end if
    end subroutine judge_train
+
+   !> Remark on a lash of which nothing is left, since the closed valve sinks into its seat.
+   subroutine judge_lash(model, remarks)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      associate (lash => model%flexible%lash, sink => seat_sink(model%flexible, model%train))
+         if (.not. lash > 0.0_wp .or. lash >= sink) return
+         call add_remark(remarks, lost_lash, "nothing is left of dynamics.lash_mm = "//number_text(1.0e3_wp*lash, 3)// &
+            & ": the valve spring presses the closed valve "//number_text(1.0e3_wp*sink, 3)//" mm into its seat, and so the "// &
+            & "roller onto the base circle; dynamics.seat_stiffness_N_m decides how far", 1.0_wp - lash/sink)
+      end associate
+   end subroutine judge_lash
 
    !> Remark on a valve that opens by much less than its cam would lift it.
    subroutine judge_lift(model, solution, speed, remarks)

@@ -4,6 +4,7 @@
 module camroller_case_facts
    use camroller_kinds, only : wp, degree, two_pi, celsius_zero, per_minute
    use camroller_engine, only : write_speed
+   use camroller_flexible_setup, only : seat_sink
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_journal_range, only : compare_width
@@ -257,6 +258,7 @@ contains
       ! Of the speeds that are shown [rev/min over rad/s]
       real(wp) :: speed_factor
       character(len=:), allocatable :: unit
+      logical :: has_lash
 
       associate (turns => model%crank_turns)
          speed_factor = per_minute*merge(turns, 1.0_wp, turns > 0.0_wp)
@@ -267,22 +269,27 @@ contains
       call add_value(" GPa, film ratio ", "min_film_ratio", 1.0_wp)
       call add_value(" to ", "max_film_ratio", 1.0_wp)
       call add_value(n//name//" smallest load of the event ", "margin_event", 1.0_wp)
-      call add_value(" N, on the base circle ", "margin_base_circle", 1.0_wp)
-      call add_value(" N; contact is lost above ", "contact_loss_speed", speed_factor)
+      has_lash = .false.
+      if (allocated(model%flexible)) has_lash = model%flexible%lash > 0.0_wp
+      if (has_lash) then
+         call add_value(" N, contact is lost in it above ", "margin_event_speed", speed_factor)
+      else
+         call add_value(" N, on the base circle ", "margin_base_circle", 1.0_wp)
+         call add_value(" N; contact is lost above ", "contact_loss_speed", speed_factor)
+      end if
       text = text//unit//", all without friction"
       if (find_quantity(result%summary, prefix//event_load) > 0) then
          call add_value("; smallest load of the event with friction ", event_load, 1.0_wp)
          text = text//" N"
       end if
       text = text//n
+      if (has_lash) call describe_lash(model, name, text)
       if (find_quantity(result%summary, prefix//"train_frequency") == 0) return
       call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", speed_factor)
       call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", speed_factor)
       call add_value(unit//"; natural frequency of the train ", "train_frequency", 1.0_wp)
       call add_value(" Hz, load of a train that vibrates over a rigid one's ", "load_factor", 1.0_wp)
-      if (allocated(model%flexible)) then
-         if (model%flexible%lash > 0.0_wp) text = text//" without the impact that takes up the lash"
-      end if
+      if (has_lash) text = text//" without the impact that takes up the lash"
       if (find_quantity(result%summary, prefix//"surge_estimate_1") > 0) then
          call add_value(", surge of the spring in its first mode ", "surge_estimate_1", 1.0_wp)
          text = text//" N"
@@ -319,5 +326,27 @@ contains
       end subroutine add_value
 
    end subroutine describe_results
+
+   !> What is left of the lash of a lobe's train.
+   subroutine describe_lash(model, name, text)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> What the lobe is called
+      character(len=*), intent(in) :: name
+      !> Lines so far
+      character(len=:), allocatable, intent(inout) :: text
+
+      ! How far the valve sinks, clearance at rest [m]
+      real(wp) :: sink, clearance
+
+      sink = seat_sink(model%flexible, model%train)
+      clearance = model%flexible%lash - sink
+      text = text//name//" closed valve "//number_text(1.0e3_wp*sink, digits)//" mm in its seat: "
+      if (clearance >= 0.0_wp) then
+         text = text//"a clearance of "//number_text(1.0e3_wp*clearance, digits)//" mm is left on the base circle"//new_line("a")
+      else
+         text = text//"nothing is left of the lash, and the spring presses the roller onto the base circle"//new_line("a")
+      end if
+   end subroutine describe_lash
 
 end module camroller_case_facts
