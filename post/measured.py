@@ -1,7 +1,8 @@
 """Measured points beside computed results: read from a table, compared, drawn.
 
 A table has one heading with units in brackets, as `cam angle [deg], torque [N m]`, `crank angle [deg], torque [N m]` or
-`speed [rpm], temperature [degC], mean torque [N mm]`. Angles, in degrees or radians, are compared with the drive torque over one turn of the camshaft, or
+`speed [rpm], temperature [degC], mean torque [N mm]`. Crank angles count from the firing dead centre of cylinder 1, as
+`engine.full_lift_deg` does. Angles, in degrees or radians, are compared with the drive torque over one turn of the camshaft, or
 with the friction torque where the column is called so; operating points with the mean friction torque of the one chosen case that has the same
 speed and temperature, which is the mean of the drive torque as well. Differences are measured less computed. Columns that are not
 compared are refused: a speed beside an angle chooses no case.
@@ -248,13 +249,14 @@ def draw_comparison(table, result, cases, comparison):
                   label="computed")
         axes.plot(table.columns[angle_name], comparison.measured, "o", markersize=4, markerfacecolor="none", color="#d55e00",
                   label="measured")
-        axes.set_xlabel(f"{angle_name} [deg]")
+        axes.set_xlabel(f"{angle_name}{' from the firing dead centre of cylinder 1' if angle_name == 'crank angle' else ''} [deg]")
         axes.set_ylabel(f"{torque_name} [{comparison.unit}]")
     else:
         _draw_points(axes, result, table, cases, comparison)
     axes.axhline(0.0, color="0.6", linewidth=0.7, zorder=0)
     axes.grid(True, color="0.9", linewidth=0.6)
-    axes.legend(frameon=False)
+    # Beside the axes: no place within them is free of points for certain
+    figure.legend(loc="outside lower center", ncols=2, frameon=False)
     words = f"{result.title}{case_words(table, result, cases)} and {table.path.name}", comparison.words()
     axes.set_title("\n".join(textwrap.fill(line, TITLE) for line in words), fontsize="medium")
     return figure

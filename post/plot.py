@@ -107,8 +107,9 @@ def parser():
                            "as in speed_rpm=300:600; given more than once, a case must fit all")
     made.add_argument("--measured", metavar="TABLE.csv",
                       help="measured values with a heading as 'cam angle [deg], torque [N m]', 'crank angle [deg], torque [N m]' or "
-                           "'speed [rpm], temperature [degC], mean torque [N mm]': drawn with the first file, over an angle with its "
-                           "first chosen case that has series, operating points with the one chosen case at each; prints bias, root mean square and the worst point of measured less computed")
+                           "'speed [rpm], temperature [degC], mean torque [N mm]', crank angles from the firing dead centre of cylinder 1: drawn with "
+                           "the first file, over an angle with its first chosen case that has series, operating points with the one "
+                           "chosen case at each; prints bias, root mean square and the worst point of measured less computed")
     made.add_argument("--dpi", type=DPI, default=130, help="pixels per inch of a PNG (default: 130)")
     made.add_argument("--angles", choices=["event", "cycle"],
                       help="cam angles of the single figures: around the valve event or the whole cycle "

@@ -81,6 +81,10 @@ def test_crank_angle_goes_by_the_engine(nine, tmp_path):
     found = compare(read_table(table), result, [0])
     # 470 degrees of crank angle are the nose at 180, 110 degrees are half a turn of the camshaft away
     assert found.computed == pytest.approx([curve[result.cam_angle == 180.0][0], curve[0]])
+    figure = draw_comparison(read_table(table), result, [0], found)
+    assert figure.axes[0].get_xlabel() == "crank angle from the firing dead centre of cylinder 1 [deg]"
+    # no point is behind the legend
+    assert figure.axes[0].get_legend() is None and len(figure.legends) == 1
     assert main([str(nine), "--measured", str(table)]) == 0
 
 
