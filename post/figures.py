@@ -183,9 +183,8 @@ def _overview_curves(figure, layout, curves, panels, shape):
     grid = figure.subplots(*shape, squeeze=False)
     window = event_window(layout, [curve.series for curve in curves])
     places = list(grid.flat)
-    if len(places) > len(curves) * len(panels):  # an odd number of curves in two columns: the first one is as wide as both
-        places.pop(1).remove()
-        places[0].set_subplotspec(places[0].get_gridspec()[0, :])
+    for axes in places[len(curves) * len(panels):]:  # an odd number of curves in two columns
+        axes.remove()
     for number, curve in enumerate(curves):
         row = places[number * len(panels):(number + 1) * len(panels)]
         limits = [draw_curve(axes, layout, curve, panel, window) for axes, panel in zip(row, panels)]
