@@ -47,7 +47,8 @@ module camroller_limit_speeds
       logical :: is_flexible = .false., has_adjuster = .false., has_lash = .false.
       !> Highest speed that was tried and lies below a limit, lowest that lies above it, as far as there is one [rad/s]
       real(wp) :: below(limit_count) = 0.0_wp, above(limit_count) = huge(1.0_wp)
-      !> Lowest speed tried above the latter at which the train is not beyond the limit, as far as there is one [rad/s]
+      !> Lowest speed tried above the latter at which the train is not beyond the limit, as far as there is one; not where a motion
+      !> without a period, whose extremes scatter, is beyond it again within a step of the scan [rad/s]
       real(wp) :: regained(limit_count) = huge(1.0_wp)
       !> Cycles of the period at the latter; 0 where there is none
       integer :: period(limit_count) = 0
@@ -135,6 +136,8 @@ contains
       end if
       do limit = 1, limit_count
          if (speed > search%above(limit) .and. .not. is_passed(limit)) search%regained(limit) = min(search%regained(limit), speed)
+         if (is_passed(limit) .and. period == 0 .and. speed > search%regained(limit) .and. &
+            & speed - search%regained(limit) < 1.5_wp*search%step) search%regained(limit) = huge(1.0_wp)
          if (speed <= search%below(limit) .or. speed >= search%above(limit)) cycle
          if (is_passed(limit)) then
             search%above(limit) = speed

@@ -26,7 +26,8 @@ contains
       testsuite = [ &
          new_unittest("limit speeds of a rigid train are those of its margins, and contact is lost above them", test_rigid), &
          new_unittest("the speed at which a joint unloads is found to 1 rev/min", test_joint), &
-         new_unittest("a speed that cannot be computed ends the scan with a message that names it", test_failure) &
+         new_unittest("a speed that cannot be computed ends the scan with a message that names it", test_failure), &
+         new_unittest("a limit is not regained where a motion without a period is beyond it within a step", test_scatter) &
          ]
    end subroutine collect_limit_speeds
 
@@ -128,5 +129,34 @@ contains
       call check(error, index(search%failure, "at 500 rev/min: ") == 1 .and. index(search%failure, "controls no error") > 0, &
          & "words: "//search%failure)
    end subroutine test_failure
+
+   !> At 4500 rev/min the train does not repeat itself, and its valve meets the seat at several metres a second.
+   subroutine test_scatter(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(limits_t) :: search
+      type(error_t), allocatable :: failure
+
+      the_case = thesis_case()
+      call set_point(the_case, 100.0_wp, 0.01_wp)
+      call add_dynamics(the_case, 2, .false.)
+      the_case%numerics%tolerance = 1.0e-3_wp
+      call start_limits(search, the_case, 0.5_wp, 4500.0_wp*minute, 200.0_wp*minute, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      ! As if it had been tried up to 4400 rev/min, with contact regained far below and seating half a step below
+      search%below = 4400.0_wp*minute
+      search%above([contact_limit, seating_limit]) = 3900.0_wp*minute
+      search%below([contact_limit, seating_limit]) = 3900.0_wp*minute
+      search%period([contact_limit, seating_limit]) = 0
+      search%regained(contact_limit) = 4000.0_wp*minute
+      search%regained(seating_limit) = 4400.0_wp*minute
+      call try_speed(search)
+      call check(error, search%failure, "")
+      if (allocated(error)) return
+      call check(error, search%regained(seating_limit) > search%highest, "regained within a step of speeds beyond the limit")
+      if (allocated(error)) return
+      call check_close(error, search%regained(contact_limit), 4000.0_wp*minute, 1.0e-12_wp, "regained for more than a step")
+   end subroutine test_scatter
 
 end module test_limit_speeds
