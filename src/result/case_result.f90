@@ -100,7 +100,7 @@ contains
       real(wp) :: mean_errors(size(series)) ! [-]
       integer :: worst
 
-      call integrate_turns(case, model, cycle%flexible, size(series), follower_count(case) + 1, means, error)
+      call integrate_turns(case, model, cycle%flexible, series, follower_count(case) + 1, means, error)
       if (allocated(error)) return
       call move_alloc(means%mean, statistics%mean)
       statistics%rows = means%rows

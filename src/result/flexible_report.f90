@@ -22,7 +22,7 @@ module camroller_flexible_report
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
    use camroller_quadrature, only : gauss_legendre
-   use camroller_result, only : append_quantity, find_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, &
+   use camroller_result, only : append_quantity, find_quantity, is_film, lobe_scope, quantity_list_t, quantity_t, result_t, &
       & take_quantities
    use camroller_state, only : state_t
    use camroller_torque_list, only : is_loss, of_residual, of_roller_inertia, torque_count, torque_series
@@ -59,20 +59,23 @@ module camroller_flexible_report
       real(wp), allocatable :: held(:, :)
       !> Their cam angles [rad], the values of the extremes, those of largest ones with the other sign [unit of the series]
       real(wp), allocatable :: held_angle(:), held_value(:)
+      !> Is a series a film, whose smallest value is one with contact?
+      logical, allocatable :: is_film(:)
    end type flexible_means_t
 
 contains
 
    !> Means over all turns.
-   subroutine integrate_turns(case, model, solution, series_count, first_torque, means, error)
+   subroutine integrate_turns(case, model, solution, series, first_torque, means, error)
       !> The case
       type(case_t), intent(in) :: case
       !> The model of the lobe
       type(model_t), intent(in) :: model
       !> Its solution
       type(flexible_solution_t), intent(in) :: solution
-      !> Number of series of follower and camshaft, and the first of them that is a torque
-      integer, intent(in) :: series_count, first_torque
+      !> Series of follower and camshaft, and the first of them that is a torque
+      type(quantity_t), intent(in) :: series(:)
+      integer, intent(in) :: first_torque
       !> The means
       type(flexible_means_t), intent(out) :: means
       !> Convergence error
@@ -80,10 +83,11 @@ contains
 
       type(state_t) :: state
       ! Series [unit of the series]
-      real(wp) :: values(series_count)
+      real(wp) :: values(size(series))
       integer :: turn
 
-      call start_means(means, series_count, first_torque)
+      call start_means(means, size(series), first_torque)
+      means%is_film = is_film(series)
       do turn = 1, size(solution%turns)
          call add_turn(case, model, solution%turns(turn), solution%cycle%resolution, 1.0_wp/size(solution%turns), &
             & turn == size(solution%turns), .true., state, means, error)
@@ -109,19 +113,21 @@ contains
    end subroutine start_means
 
    !> Hold the row of a turn before the last one where it has an extreme: of these turns nothing is searched between points.
-   pure subroutine hold_row(means, angle, values, event_load)
+   pure subroutine hold_row(means, angle, values, is_touching, event_load)
       !> The means
       type(flexible_means_t), intent(inout) :: means
       !> Cam angle [rad]
       real(wp), intent(in) :: angle
       !> The row [unit of the series]
       real(wp), intent(in) :: values(:)
+      !> Are cam and roller in contact?
+      logical, intent(in) :: is_touching
       !> Contact load; huge with the valve on its seat [N]
       real(wp), intent(in) :: event_load
 
       integer :: i
 
-      associate (ends => [values, -values, event_load])
+      associate (ends => [merge(huge(1.0_wp), values, means%is_film .and. .not. is_touching), -values, event_load])
          do i = 1, size(ends)
             if (ends(i) >= means%held_value(i)) cycle
             means%held_value(i) = ends(i)
@@ -279,8 +285,8 @@ contains
                call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
                call add_sample(means%torque_rows, angle, values(size(means%rows%values, 1) + 1:), .false.)
             else if (has_extremes) then
-               call hold_row(means, angle, values, merge(state%contact%load, huge(1.0_wp), state%position%lift > 0.0_wp .and. &
-                  & state%position%lift >= model%train%seat_lift))
+               call hold_row(means, angle, values, state%contact%is_touching, merge(state%contact%load, huge(1.0_wp), &
+                  & state%position%lift > 0.0_wp .and. state%position%lift >= model%train%seat_lift))
             end if
             call add_shares(means, model, state, angle, state%position%lift > 0.0_wp, weight)
          end do

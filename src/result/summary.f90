@@ -16,8 +16,8 @@ module camroller_summary
    use camroller_margins, only : margin_t, margins_t
    use camroller_means, only : statistics_t
    use camroller_number_text, only : integer_text
-   use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, lobe_scope, scope_camshaft, &
-      & scope_engine, take_quantities
+   use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, is_film, lobe_scope, &
+      & scope_camshaft, scope_engine, take_quantities
    use camroller_series_extremes, only : series_extremes_t
    use camroller_shaft, only : solved_t
    implicit none
@@ -141,8 +141,8 @@ contains
          associate (series => result%series(i))
             call add(list, "mean_"//series%name, series%unit, "mean over the cycle: "// &
                & series%description, series%source, means(i), series%scope)
-            call add(list, "min_"//series%name, series%unit, "smallest value: "//series%description, &
-               & series%source, extremes%lowest(i), series%scope)
+            call add(list, "min_"//series%name, series%unit, "smallest value"//trim(merge(" with contact: ", &
+               & ":              ", is_film(series)))//" "//series%description, series%source, extremes%lowest(i), series%scope)
             call add(list, "max_"//series%name, series%unit, "largest value: "//series%description, &
                & series%source, extremes%highest(i), series%scope)
          end associate

@@ -13,7 +13,7 @@ module camroller_result
    private
 
    public :: quantity_t, quantity_list_t, append_numbered, append_quantity, take_quantities, result_t, get_series, get_summary, &
-      & find_quantity, check_numbers, lobe_scope, worse_of
+      & find_quantity, check_numbers, is_film, lobe_scope, worse_of
    public :: scope_length, scope_camshaft, scope_engine, scope_case
 
    !> Length of a scope
@@ -96,6 +96,17 @@ contains
          worse = merge(other, one, abs(other) > abs(one))
       end if
    end function worse_of
+
+   !> Is a series a film of cam and roller? It is zero without contact, and its smallest value that of the angles in contact.
+   elemental function is_film(quantity) result(verdict)
+      !> The series
+      type(quantity_t), intent(in) :: quantity
+      !> Is it?
+      logical :: verdict
+
+      verdict = index(quantity%name, "film_thickness_") > 0 .or. (index(quantity%name, "film_ratio") > 0 .and. &
+         & quantity%source == "film")
+   end function is_film
 
    !> Append a quantity to a list, which grows as it has to.
    pure subroutine append_quantity(list, name, unit, description, source, value, scope, least)

@@ -14,7 +14,7 @@ module camroller_series_extremes
    use camroller_margins, only : margins_t
    use camroller_means, only : find_thickest_film, has_film_limit, statistics_t
    use camroller_model, only : model_t
-   use camroller_result, only : quantity_t, find_quantity
+   use camroller_result, only : quantity_t, find_quantity, is_film
    use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
    use camroller_shaft, only : solved_t
    use camroller_slip_errors, only : error_of_extreme, relief_t
@@ -215,19 +215,27 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(kept_states_t) :: kept
+      ! Rows with contact; not allocated where it is never lost
+      logical, allocatable :: touching(:)
       integer :: i, load
       real(wp) :: error_of_load ! [N]
 
       allocate (kept%values(size(lowest), most_kept), kept%finer(size(lowest), most_kept))
       allocate (statistics%extreme_errors(2, size(lowest)))
+      load = find_quantity(series, "contact_load")
+      touching = statistics%rows%values(load, :statistics%rows%count) > 0.0_wp
+      if (all(touching) .or. .not. any(touching)) deallocate (touching)
       associate (errors => statistics%extreme_errors)
          do i = 1, size(lowest)
             call search_series(solved, lobe, series(i), i, -1, statistics, kept, highest(i), errors(2, i), error)
-            if (.not. allocated(error)) call search_series(solved, lobe, series(i), i, 1, statistics, kept, lowest(i), &
-               & errors(1, i), error)
+            if (allocated(error)) return
+            if (is_film(series(i))) then
+               call search_series(solved, lobe, series(i), i, 1, statistics, kept, lowest(i), errors(1, i), error, touching)
+            else
+               call search_series(solved, lobe, series(i), i, 1, statistics, kept, lowest(i), errors(1, i), error)
+            end if
             if (allocated(error)) return
          end do
-         load = find_quantity(series, "contact_load")
          call search_series(solved, lobe, series(load), load, 1, statistics, kept, statistics%event_load, error_of_load, error, &
             & in_event(solved%models(lobe), series, statistics%rows))
          ! It is a smallest load as well
@@ -259,15 +267,22 @@ contains
       logical, intent(in), optional :: among(:)
 
       type(search_t) :: search
+      real(wp) :: largest ! [unit of the series]
       integer :: place
 
+      largest = maxval(statistics%rows%values(series, :statistics%rows%count))
       associate (cycle => solved%cycles(lobe))
          call start_search(statistics%rows, series, sense, cycle%tolerance, search, &
             & sense > 0 .and. index(quantity%name, "film_") > 0, among)
          do while (search%is_wanted)
             call keep_state(kept, solved, lobe, statistics%curve, search%trial, place, error)
             if (allocated(error)) return
-            call narrow_search(statistics%rows, search, kept%values(series, place))
+            if (is_film(quantity) .and. .not. kept%states(place)%contact%is_touching) then
+               ! No film is smallest where contact is lost between two rows
+               call narrow_search(statistics%rows, search, largest)
+            else
+               call narrow_search(statistics%rows, search, kept%values(series, place))
+            end if
          end do
          value = sense*search%value
          call keep_state(kept, solved, lobe, statistics%curve, search%point, place, error)
@@ -275,6 +290,8 @@ contains
          if (allocated(cycle%flexible)) then
             ! What the search leaves is unknown: slopes jump where contacts part, which rows do not mark
             value_error = abs(kept%values(series, place) - kept%finer(series, place))*error_share
+            ! Of turns with other contacts the difference says nothing of a film
+            if (is_film(quantity) .and. min(kept%values(series, place), kept%finer(series, place)) <= 0.0_wp) value_error = 0.0_wp
          else
             call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
                & kept%relief(place), search%point, series, sense, value, search%is_exact, present(among), value_error)

@@ -82,7 +82,8 @@ contains
       trial%time = median(times(:min(run, size(times))))
       trial%sliding_speed = result%series_values(:, find_quantity(result%series, "sliding_speed"))
       trial%mean_friction = scalar("mean_torque_friction")
-      trial%smallest_film = minval(result%series_values(:, find_quantity(result%series, "film_thickness_min")))
+      trial%smallest_film = minval(result%series_values(:, find_quantity(result%series, "film_thickness_min")), &
+         & result%series_values(:, find_quantity(result%series, "contact_load")) > 0.0_wp)
       trial%revolution_slip = scalar("revolution_slip")
       trial%estimated_error = scalar("estimated_error")
       trial%evaluations = scalar("counter_evaluations")

@@ -254,6 +254,35 @@ def test_lash_takes_lift_and_its_impact_is_in_no_estimate(tmp_path, camroller):
         assert ("over a rigid one's 1 without the impact that takes up the lash" in done.stdout) == there
 
 
+@pytest.mark.parametrize(("deck", "point"), [(RIGID, ("sweep.values_1=3300", "sweep.values_2=60")), (DECK, ("sweep.values_1=2500",))],
+                         ids=["rigid", "flexible"])
+def test_the_smallest_film_is_that_of_the_angles_in_contact(tmp_path, camroller, deck, point):
+    summary, _ = run(camroller, deck, tmp_path / "run.h5", *point, "output.angle_step_deg=0.1", "numerics.tolerance=1e-4")
+    with h5py.File(tmp_path / "run.h5") as file:
+        touching = file["series/contact_load"][0] > 0
+        assert not touching.all() and summary["lost_contact_share"] > 0
+        for name in ("film_thickness_min", "film_thickness_central", "film_ratio"):
+            values = file[f"series/{name}"][0]
+            assert (values[~touching] == 0).all()
+            assert summary[f"min_{name}"] == pytest.approx(values[touching].min(), rel=1e-3)
+            assert summary[f"min_{name}"] <= values[touching].min() * (1 + 1e-6)
+            assert file[f"summary/min_{name}"].attrs["long_name"].startswith("smallest value with contact: ")
+
+
+@pytest.mark.parametrize(("lash", "clearance"), [(0.003, None), (0.1, 0.0958)])
+def test_the_seat_takes_of_a_lash_what_the_closed_valve_sinks(tmp_path, camroller, lash, clearance):
+    """210 N of the spring press the valve 4.2 um into its seat of 5e7 N/m, towards the finger."""
+    change = f"dynamics.lash_mm={lash}"
+    summary, warnings = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=300", change, "spring.base_circle_load_N=0")
+    done = subprocess.run([camroller, "check", DECK, "--point", "speed_rpm=300", "--set", change, "--set", "spring.base_circle_load_N=0"],
+                          capture_output=True, text=True, check=True)
+    words = "nothing is left of dynamics.lash_mm = 0.003: the valve spring presses the closed valve 0.0042 mm into its seat"
+    assert (words in warnings) == (clearance is None) == (summary["lost_contact_share"] == 0)
+    left = f"a clearance of {clearance} mm is left on the base circle" if clearance else "the spring presses the roller onto the base circle"
+    assert "closed valve 0.0042 mm in its seat: " in done.stdout and left in done.stdout
+    assert re.search(r"smallest load of the event 361 N, contact is lost in it above 2940 rev/min", done.stdout)
+
+
 def test_load_of_the_closed_valve_is_that_of_the_lift_at_rest(tmp_path, camroller):
     """The base circle load of 64 N with vibration; at a thousandth of the lift the train already carries 235 N."""
     summary, _ = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=900")

@@ -4,7 +4,7 @@ module enclosed_series
    use camroller_kinds, only : wp
    use camroller_case, only : case_t
    use camroller_number_text, only : number_text
-   use camroller_result, only : result_t, find_quantity
+   use camroller_result, only : result_t, find_quantity, is_film
    use camroller_torque_list, only : of_residual, torque_series
    use result_checks, only : promised_error
    implicit none
@@ -15,7 +15,7 @@ module enclosed_series
 contains
 
    !> Series with a row beyond their extremes by more than the result promises: relative to their range, torques to that of all
-   !> friction at least.
+   !> friction at least; films by the rows with contact, where they are not zero.
    function check_enclosed(case, result) result(trouble)
       !> The case
       type(case_t), intent(in) :: case
@@ -38,7 +38,8 @@ contains
             if (find_quantity(result%summary, "min_"//series%name) == 0) cycle
             low = result%summary_values(find_quantity(result%summary, "min_"//series%name))
             high = result%summary_values(find_quantity(result%summary, "max_"//series%name))
-            beyond = max(maxval(values) - high, low - minval(values)) - rounding*max(abs(low), abs(high))
+            beyond = max(maxval(values) - high, low - minval(values, .not. is_film(series) .or. values > 0.0_wp)) &
+               & - rounding*max(abs(low), abs(high))
             if (.not. beyond > 0.0_wp) cycle
             extent = max(high - low, series%least)
             if (series%unit == "N m") extent = max(extent, friction_range())
