@@ -101,8 +101,8 @@ def test_joint_tension_and_overspeed_give_remarks(tmp_path, camroller):
     assert summary["joint_force_min"] < 0 and "the joint of finger and pivot is in tension" in warnings
     shown = subprocess.run([camroller, "run", DECK, "--no-sweep", "-o", tmp_path / "shown.h5", "--set", "dynamics.lash_mm=0.1",
                             "--set", "numerics.tolerance=1e-3"], capture_output=True, text=True)
-    # No film where cam and roller part, which is not a film of no thickness
-    assert "film ratio" in shown.stdout and shown.stdout.splitlines()[2].split()[-2:] == ["-", "-"]
+    # No film where cam and roller part, which is not a film of no thickness: shown is that of the rest of the turn
+    assert "film ratio" in shown.stdout and all(float(word) > 0.01 for word in shown.stdout.splitlines()[2].split()[-2:])
     summary, warnings = run(camroller, DECK, tmp_path / "fast.h5", "sweep.values_1=4500", "numerics.tolerance=1e-3")
     assert summary["losses_of_contact"] > 0 and "cam and roller lose contact" in warnings
     assert summary["period_cycles"] == 0 and summary["summary_cycles"] == 40
