@@ -267,19 +267,19 @@ contains
       logical, intent(in), optional :: among(:)
 
       type(search_t) :: search
-      real(wp) :: largest ! [unit of the series]
       integer :: place
+      logical :: needs_contact
 
-      largest = maxval(statistics%rows%values(series, :statistics%rows%count))
+      needs_contact = sense > 0 .and. is_film(quantity)
       associate (cycle => solved%cycles(lobe))
          call start_search(statistics%rows, series, sense, cycle%tolerance, search, &
             & sense > 0 .and. index(quantity%name, "film_") > 0, among)
          do while (search%is_wanted)
             call keep_state(kept, solved, lobe, statistics%curve, search%trial, place, error)
             if (allocated(error)) return
-            if (is_film(quantity) .and. .not. kept%states(place)%contact%is_touching) then
+            if (needs_contact .and. .not. kept%states(place)%contact%is_touching) then
                ! No film is smallest where contact is lost between two rows
-               call narrow_search(statistics%rows, search, largest)
+               call narrow_search(statistics%rows, search, maxval(statistics%rows%values(series, :statistics%rows%count)))
             else
                call narrow_search(statistics%rows, search, kept%values(series, place))
             end if
