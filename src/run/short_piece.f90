@@ -448,8 +448,8 @@ contains
 
    !> Error estimate of the mean by the rule of Lobatto.
    pure function lobatto_error(values) result(error)
-      !> Values at its places [any]
-      real(wp), intent(in) :: values(places)
+      !> Values at its places, of a row of others or not [any]
+      real(wp), intent(in) :: values(:)
       !> The estimate [unit of the values]
       real(wp) :: error
 
