@@ -268,5 +268,9 @@ def test_a_library_with_code_of_a_file_that_is_gone_is_made_again(tmp_path):
             (tmp_path / member).touch()
         subprocess.run(["ar", "-rs", f"build/{build}/camroller/libcamroller.a", *members], cwd=tmp_path, check=True,
                        capture_output=True)
+    # fpm would take test-drive for compiled, and so for a member of the new library
+    compiled = tmp_path / "build/new/camroller/dependencies_test-drive.o.digest"
+    compiled.touch()
     subprocess.run(["tools/fpm", "build"], cwd=tmp_path, check=True)
     assert [path.parts[-3] for path in tmp_path.glob("build/*/camroller/libcamroller.a")] == ["new"]
+    assert not compiled.exists()
