@@ -36,8 +36,8 @@ module camroller_cycle_remarks
    !> (Johnson 1985, sections 4.5 and 6.3) [-]; contact stress that the static load rating of roller bearings allows (ISO 76:2006)
    !> [Pa]
    real(wp), parameter :: yield_part = 0.6_wp, static_limit = 4.0e9_wp
-   !> Part of a cycle that is all of it but for rounding; part from which on slip is worth a word: moments beside a lost contact are
-   !> less [-]
+   !> Part of a cycle that is all of it but for rounding; part from which on shear of the film, or oil beside the dry contact, is
+   !> worth a word: moments beside a lost contact are less [-]
    real(wp), parameter :: all_of_it = 1.0_wp - 1.0e-9_wp, notable_share = 0.01_wp
    !> Intervals without contact that a remark lists
    integer, parameter :: most_intervals = 4

@@ -290,8 +290,6 @@ contains
          if (allocated(cycle%flexible)) then
             ! What the search leaves is unknown: slopes jump where contacts part, which rows do not mark
             value_error = abs(kept%values(series, place) - kept%finer(series, place))*error_share
-            ! Of turns with other contacts the difference says nothing of a film
-            if (is_film(quantity) .and. min(kept%values(series, place), kept%finer(series, place)) <= 0.0_wp) value_error = 0.0_wp
          else
             call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
                & kept%relief(place), search%point, series, sense, value, search%is_exact, present(among), value_error)

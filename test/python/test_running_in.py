@@ -116,3 +116,25 @@ def test_a_film_without_asperities_has_a_remark(camroller, tmp_path):
               "tribofilm.roughness_ratio=0", "--set", "operating_point.speed_rpm=900", "--no-sweep"]
     assert words in done(camroller, "run", DECK, *COARSE[:4], *smooth, "-o", "x.h5", folder=tmp_path).stderr
     assert words not in done(camroller, "run", DECK, *COARSE[:4], "--no-sweep", "-o", "y.h5", folder=tmp_path).stderr
+
+
+@pytest.mark.parametrize("zone, part", [("hertz", 0.0), ("rigid_to_elastic", 1.0144)])
+def test_a_film_grows_by_the_stress_over_the_area_that_is_sheared(camroller, tmp_path, zone, part):
+    """Its first second on the base circle at 25 degC: growth by the shear over the strip of the dry contact, or over one that is
+    2 sqrt(b^2 + 1.0144 2 R h) wide (doc/theory.md, sections 8.4 and 10), while the place is in the dry contact."""
+    volume, energy, rate, gas_constant, avogadro = 5e-27, 77e3, 5e5, 8.31446, 6.02214e23
+    values = {"operating_point.speed_rpm": 900, "operating_point.oil_temperature_degC": 25, "film.law": "moes", "traction.sheared_zone": zone,
+              "tribofilm.activation_volume_nm3": volume * 1e27, "tribofilm.growth_rate_nm_s": rate * 1e9,
+              "tribofilm.removal_rate_per_s": 0, "tribofilm.roughness_ratio": 0, "running_in.duration_h": 1 / 3600}
+    done(camroller, "run", DECK, *COARSE[:4], "--no-sweep", "-o", "x.h5", "--quiet",
+         *(word for key, value in values.items() for word in ("--set", f"{key}={value}")), folder=tmp_path)
+    with h5py.File(tmp_path / "x.h5") as file:
+        base = numpy.abs(file["series/cam_angle"][:] - 180) > 100
+        film, thickness, shear, half_width, radius, speed, asperities, flash = (file[f"series/{name}"][0][base] for name in (
+            "film_thickness_central", "cam_film_thickness", "friction_hydrodynamic", "hertz_half_width", "equivalent_radius",
+            "cam_surface_speed", "asperity_load", "flash_temperature_rise"))
+    assert asperities.max() < 1e-3 and 1e-13 < thickness.min() and thickness.max() < 1e-9
+    stress = numpy.abs(shear) / (2 * numpy.sqrt(half_width**2 + part * 2 * radius * film) * 13.7e-3)
+    growth = rate * numpy.exp(-(energy - avogadro * volume * stress) / (gas_constant * (298.15 + flash)))
+    # M is 0.2 here, so that the strip is 0.5 % narrower than in the rigid limit, of which an exponent of 0.3 makes 0.15 %
+    assert thickness == pytest.approx(growth * 2 * half_width / speed * 900 / 60, rel=0.01)

@@ -61,8 +61,8 @@ def test_the_heat_of_the_shear_is_spread_over_the_strip_that_is_sheared(camrolle
                 "hertz_half_width", "equivalent_radius"))
         area = film * np.abs(shear * sliding) / (12 * 0.14 * (rise - flash))
         wanted = 2 * np.sqrt(half_width**2 + part * 2 * radius * film) * 13.7e-3
-        # these contacts are rigid to M = 0.6: Q/(Q + Q_1) is 0.95 and more
-        assert area == pytest.approx(wanted, rel=0.03 if part else 1e-9), zone
+        # M is 0.12 here, so that the strip is 0.13 % narrower than in the rigid limit
+        assert area == pytest.approx(wanted, rel=3e-3), zone
 
 
 def test_the_limit_of_a_film_without_pressure_and_a_roller_that_turns_backwards_have_remarks(camroller, tmp_path):
