@@ -50,7 +50,7 @@ EFFECTS = {
     "gas_force": (["gas"], []),
     "friction_modifier": ([], ["asperity:coverage"]),
     "boundary_law": (["boundary_law"], []),
-    "bearing_heat": (["bearing_heat"], ["bearing_turn:find_temperature"]),
+    "bearing_heat": (["bearing_heat", "bearing_means"], ["bearing_turn:find_temperature"]),
     "shaft_drag": (["shaft_drag"], []),
     "local_limit": (["local_limit"], []),
     "roller_profile": (["roller_profile", "slices", "axial_table", "axial_film"],

@@ -4,10 +4,11 @@
 !> takes from the whole turn, orbit and temperature, is found as in a run, with less accuracy and under a load that is linear
 !> between the angles of the survey.
 module camroller_effect_bearings
-   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
-   use camroller_bearing_turn, only : find_turn, mean_of_turn, sample_load, bearing_turn_t
+   use camroller_bearing_means, only : bearing_turn_t, choose_angles, mean_of_turn
+   use camroller_bearing_turn, only : find_turn
    use camroller_case, only : case_t
    use camroller_effect_grid, only : points
    use camroller_effect_survey, only : survey_t
@@ -20,9 +21,8 @@ module camroller_effect_bearings
 
    public :: mean_bearing_torque
 
-   !> Error of an orbit in a step, over its smallest film [-]; error of a rise of temperature [K]; the longest piece of a mean, four
-   !> angles of which stand for two of the survey [rad]
-   real(wp), parameter :: orbit_accuracy = 1.0e-2_wp, rise_tolerance = 1.0e-2_wp, longest_piece = 15.0_wp*degree
+   !> Error of what follows from a whole turn, see `bearing_turn_t` [-]
+   real(wp), parameter :: turn_accuracy = 1.0e-2_wp
 
    !> Load on a bearing at the angles of a survey
    type, extends(bearing_load_t) :: surveyed_load_t
@@ -97,15 +97,14 @@ contains
       type(bearing_turn_t) :: turn
       ! Mean flow of oil [m^3/s]
       real(wp) :: flow
+      logical :: is_finer
 
       torque = 0.0_wp
       turn%stops = load%angles(1) + [0.0_wp, two_pi]
       turn%rotation = rotation
-      turn%accuracy = orbit_accuracy
-      turn%rise_tolerance = rise_tolerance
-      turn%longest_piece = longest_piece
-      call sample_load(load, turn, error)
-      if (.not. allocated(error)) call find_turn(case, shaft, load, turn, error)
+      turn%accuracy = turn_accuracy
+      call find_turn(case, shaft, load, turn, error)
+      if (.not. (allocated(error) .or. allocated(turn%angles))) call choose_angles(case, shaft, load, turn, is_finer, error)
       if (.not. allocated(error)) call mean_of_turn(case, shaft, turn, torque, flow, error)
    end subroutine follow_bearing
 
