@@ -243,10 +243,9 @@ class Layout:
         failed = sum(case in self.failed[number] for number, chosen in enumerate(self.chosen) for case in chosen)
         if failed:
             words.append(f"{failed} of {sum(map(len, self.chosen))} cases have no result")
-        lost = sum(_has_lost_contact(self.results[entry.file], entry.case) for entry in self.entries)
-        if lost:
-            words.append(f"contact is lost in {lost} of {len(self.entries)} cases" if len(self.entries) > 1 else "contact is lost")
-        return words
+        lost_of = [lost_contact(result) for result in self.results]
+        lost = sum(lost_of[entry.file][entry.case] for entry in self.entries)
+        return words + ([lost_contact_words(lost, len(self.entries))] if lost else [])
 
 
 def not_computed(result):
@@ -261,10 +260,16 @@ def not_computed_words(result):
     return f"{count} of {result.cases} cases {'was' if count == 1 else 'were'} not computed" if count else ""
 
 
-def _has_lost_contact(result, case):
-    """Is contact lost for a part of the cycle, by any lobe?"""
-    return any(name.endswith("lost_contact_share") and np.shape(share.values) == (result.cases,) and share.values[case] > 0.0
-               for name, share in result.summary.items())
+def lost_contact_words(count, cases):
+    """In how many cases contact is lost."""
+    return f"contact is lost in {count} of {cases} cases" if cases > 1 else "contact is lost"
+
+
+def lost_contact(result):
+    """For each case: is contact lost for a part of the cycle, by any lobe?"""
+    shares = [share.values for name, share in result.summary.items()
+              if name.endswith("lost_contact_share") and np.shape(share.values) == (result.cases,)]
+    return np.any([share > 0.0 for share in shares], axis=0) if shares else np.zeros(result.cases, dtype=bool)
 
 
 def _example(layout):

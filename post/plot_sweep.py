@@ -1,14 +1,15 @@
 """Draw results of a sweep as functions of the keys that it varies.
 
     python post/plot_sweep.py results/sweep.h5                              the figure that suits the sweep
-    python post/plot_sweep.py FILE --quantity mean_slip_ratio,max_peak_pressure --figure scatter --output doc/figures
+    python post/plot_sweep.py FILE --quantity mean_slip_ratio,max_hertz_pressure --figure scatter --output doc/figures
     python post/plot_sweep.py FILE --where 'mean_slip_ratio < 0.01' --where 'speed_rpm >= 600'     only these cases
     python post/plot_sweep.py FILE --over speed_rpm --take largest --where 'mean_slip_ratio < 0.01'  designs that hold this at every speed
 
 `map`: two swept keys as axes, the quantity as colour. `curves`: one key along the axis, the others as curves. `scatter`: every
 swept key against every quantity. `parallel`: an axis for each key and quantity, a line for each case, coloured by the last one.
 Without --figure a grid of two long keys becomes a map, other grids curves, samples and tables a scatter. Quantities that are all above
-zero and differ by more than a factor of a hundred have logarithmic axes. With --over the cases that differ in these keys only, as
+zero and differ by more than a factor of a hundred have logarithmic axes. Cases that lose contact have a cross in maps, a circle in
+curves and scatters; the title has their number. With --over the cases that differ in these keys only, as
 operating points of one design, count as one, with the largest, smallest or mean value; conditions hold for that value. Only the summary
 is read, so a file of a hundred thousand cases is drawn as well. Needs no display. Exit code 2 where the file or a name does not suit.
 """
@@ -22,7 +23,8 @@ import textwrap
 import matplotlib
 
 matplotlib.use("Agg")
-matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False})
+matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False,
+                            "axes.formatter.useoffset": False})  # it would stand on the label of its axis
 
 from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.colors import LogNorm, Normalize  # noqa: E402
@@ -32,7 +34,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: 
 import numpy as np  # noqa: E402
 
 from command import DPI, run, save_figure  # noqa: E402
-from layout import SPEED, TAKEN, groups_over, is_one_of, key_meant, thin_out  # noqa: E402
+from layout import SPEED, TAKEN, groups_over, is_one_of, key_meant, lost_contact, lost_contact_words, thin_out  # noqa: E402
 from read import ResultError, fills_grid, read_result  # noqa: E402
 from units import distinct_texts, fitting_unit, key_words, number, unit_words, with_unit  # noqa: E402
 
@@ -42,11 +44,15 @@ MOST_CURVES = 8  # with a legend; of numbers more have a colour bar
 MOST_COLOURS = 60
 WIDE = 100.0  # largest over smallest value of a quantity from which on its axis is logarithmic
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
+NEAR = 1e-3  # of the largest value: where all are as near as this, numbers along a lower axis are too long for more than its ends
 MOST_WORDS = 24  # values of a key that the axis of a map can name
 ROUNDING = 1e-9  # part of a quantity within which its values are the same
 CONDITION = re.compile(r"^\s*([\w.]+)\s*(?:(<=|>=|<|>)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)|=\s*([^=<>]+?))\s*$")
 RELATIONS = {"<": np.less, ">": np.greater, "<=": np.less_equal, ">=": np.greater_equal}
 PLAIN = FuncFormatter(lambda value, _: f"{value:g}")  # numbers of logarithmic axes
+# Cases that lose contact: in maps, and about the points of curves
+CROSS = {"marker": "x", "markersize": 4, "linewidth": 0.0, "color": "#d55e00", "markeredgewidth": 0.8, "clip_on": False, "label": "_lost"}
+CIRCLE = {"marker": "o", "markersize": 5, "linewidth": 0.0, "markerfacecolor": "white", "label": "_lost"}
 SPREAD = 0.18  # of points of a scatter about the word they belong to
 
 
@@ -69,6 +75,8 @@ class Sweep:
         failed = np.zeros(result.cases)
         failed[[case for case, _ in result.failed_cases()]] = 1
         self.failed = np.array([failed[group].max() for group in groups])
+        lost = lost_contact(result)
+        self.lost = np.array([lost[group].any() for group in groups])
         for key, quantity in result.sweep.items():
             if key not in gone:
                 values = self._numbers(key, quantity.values)[[group[0] for group in groups]]
@@ -82,7 +90,9 @@ class Sweep:
         for name in quantities:
             self._add(result, name, kept)
         if not any(np.isfinite(values).any() for values, _ in self.quantities.values()):
-            raise ResultError(f"{path}: no case has a value of {', '.join(self.quantities)}")
+            infinite = any(np.isinf(values).any() for values, _ in self.quantities.values())
+            raise ResultError(f"{path}: no case has a {'finite ' * infinite}value of {', '.join(self.quantities)}"
+                              + "; infinity stands for a limit that is never reached" * infinite)
 
     def _add(self, result, name, kept):
         """A scalar of the summary, without number for the cases that are not kept."""
@@ -146,6 +156,10 @@ class Sweep:
         """Is every value there with every other?"""
         return fills_grid([values.tolist() for values, _ in self.keys.values()], len(self.failed))
 
+    def is_drawn_lost(self, names):
+        """Cases that lose contact and have a value of one of these quantities."""
+        return self.lost & np.any([np.isfinite(self.quantities[name][0]) for name in names], axis=0)
+
     def column(self, name):
         """Values and label of a key or a quantity."""
         return self.keys.get(name) or self.quantities[name]
@@ -194,9 +208,12 @@ def draw_map(sweep):
         rows, j = np.unique(y, return_inverse=True)
         table = np.full((len(rows), len(columns)), np.nan)
         table[j, i] = values[chosen]
-        image = axes.pcolormesh(_edges(columns, first in sweep.logarithmic), _edges(rows, second in sweep.logarithmic),
+        image = axes.pcolormesh(_edges(sweep, first, columns), _edges(sweep, second, rows),
                                 np.ma.masked_invalid(table), cmap="viridis", norm=_colour_scale(sweep, name))
         axes.set_facecolor("#dddddd")  # cases without a result
+        lost = chosen & sweep.is_drawn_lost([name])
+        if lost.any():
+            axes.plot(sweep.keys[first][0][lost], sweep.keys[second][0][lost], **CROSS)
         figure.colorbar(image, ax=axes, label=label, format=PLAIN if name in sweep.logarithmic else None)
         if min(table.shape) > 1 and not {first, second} & set(sweep.words) and np.isfinite(table).all() and np.ptp(table) > 0:
             lines = axes.contour(columns, rows, table, colors="white", linewidths=0.6,
@@ -207,7 +224,7 @@ def draw_map(sweep):
                 label.set_path_effects(shade)
         _name_axis(sweep, axes, "x", first)
         _name_axis(sweep, axes, "y", second)
-    _note(figure, sweep, (first, second))
+    _note(figure, sweep, (first, second), mark=" (crosses)")
     return figure
 
 
@@ -233,6 +250,9 @@ def draw_curves(sweep):
             axes.plot(sweep.keys[axis][0][here][order_here], values[here][order_here], marker="o", markersize=3,
                       linewidth=0.0 if axis in sweep.words else 1.3, color=matplotlib.colormaps["viridis"](place),
                       label=None if step is None else sweep.label_value(curve, step))
+            lost = here & sweep.is_drawn_lost([name])
+            if lost.any():
+                axes.plot(sweep.keys[axis][0][lost], values[lost], color=matplotlib.colormaps["viridis"](place), **CIRCLE)
         _name_axis(sweep, axes, "y", name)
         _name_axis(sweep, axes, "x", axis)
         if is_many:
@@ -242,7 +262,8 @@ def draw_curves(sweep):
             axes.legend(title=sweep.keys[curve][1], fontsize=7, title_fontsize=7, frameon=False)
     count = sweep.lengths()[curve] if curve else 0
     most = MOST_COLOURS if curve and curve not in sweep.words else MOST_CURVES
-    _note(figure, sweep, order[:2], [f"{most} of {count} values of {sweep.keys[curve][1]} shown"] if count > most else [])
+    _note(figure, sweep, order[:2], [f"{most} of {count} values of {sweep.keys[curve][1]} shown"] if count > most else [],
+          " (open circles)")
     return figure
 
 
@@ -255,13 +276,15 @@ def draw_scatter(sweep):
     for i, name in enumerate(sweep.quantities):
         for j, key in enumerate(sweep.keys):
             axes = grid[i][j]
-            axes.scatter(sweep.keys[key][0] + _sideways(sweep, key), sweep.quantities[name][0], s=size, color="#08306b",
-                         linewidths=0, alpha=0.6, rasterized=True)
+            places, lost = sweep.keys[key][0] + _sideways(sweep, key), sweep.is_drawn_lost([name])
+            axes.scatter(places, sweep.quantities[name][0], s=size, color="#08306b", linewidths=0, alpha=0.6, rasterized=True)
+            axes.scatter(places[lost], sweep.quantities[name][0][lost], s=3 * size, facecolors="none", edgecolors="#d55e00",
+                         linewidths=0.6, rasterized=True)
             if i == rows - 1:
                 _name_axis(sweep, axes, "x", key)
             if j == 0:
                 _name_axis(sweep, axes, "y", name)
-    _note(figure, sweep, sweep.keys)
+    _note(figure, sweep, sweep.keys, mark=" (circles)")
     return figure
 
 
@@ -326,13 +349,15 @@ def _where_others_are_first(sweep, names):
     return chosen
 
 
-def _edges(centres, is_logarithmic):
-    """Edges of cells about their centres, halfway in what the axis shows."""
+def _edges(sweep, key, centres):
+    """Edges of cells about their centres, halfway in what the axis shows; of numbers the outer cells end where the results do."""
+    is_logarithmic = key in sweep.logarithmic
     places = np.log(centres) if is_logarithmic else centres
     if len(places) == 1:
         return centres * np.array([0.9, 1.1]) if is_logarithmic else centres + np.array([-0.5, 0.5])
     inner = (places[1:] + places[:-1]) / 2
-    places = np.concatenate(([2 * places[0] - inner[0]], inner, [2 * places[-1] - inner[-1]]))
+    ends = (2 * places[0] - inner[0], 2 * places[-1] - inner[-1]) if key in sweep.words else (places[0], places[-1])
+    places = np.concatenate((ends[:1], inner, ends[1:]))
     return np.exp(places) if is_logarithmic else places
 
 
@@ -353,6 +378,10 @@ def _name_axis(sweep, axes, side, name):
         ticks.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
         ticks.set_major_formatter(PLAIN)
         ticks.set_minor_formatter(NullFormatter())
+    elif side == "x" and name not in sweep.words and 0.0 < np.nanmax(values) - np.nanmin(values) < NEAR * np.nanmax(np.abs(values)):
+        ends = [float(np.nanmin(values)), float(np.nanmax(values))]
+        for label, end in zip(axes.set_xticks(ends, distinct_texts(ends)), ("left", "right")):
+            label.label1.set_horizontalalignment(end)
     if name in sweep.words and len(sweep.words[name]) <= MOST_WORDS:
         words = [sweep.label_value(name, place) for place in range(len(sweep.words[name]))]
         is_long = side == "x" and sum(map(len, words)) > 24
@@ -361,13 +390,17 @@ def _name_axis(sweep, axes, side, name):
         getattr(axes, f"set_{side}lim")(-0.5, len(words) - 0.5)
 
 
-def _note(figure, sweep, shown, more=()):
-    """Title of the deck, values of the keys that are not shown, what else is left out, and cases without a result."""
+def _note(figure, sweep, shown, more=(), mark=""):
+    """Title of the deck, values of the keys that are not shown, what else is left out, cases without a result and with lost contact."""
     words = [f"{label} = {sweep.label_value(key, values[0])}" for key, (values, label) in sweep.keys.items() if key not in shown]
     words += [*more, *sweep.remarks]
     failed = int(sweep.failed.sum())
     if failed:
         words.append(f"{failed} of {len(sweep.failed)} cases have no result")
+    chosen = _where_others_are_first(sweep, shown)
+    lost = int((chosen & sweep.is_drawn_lost(sweep.quantities)).sum())
+    if lost:
+        words.append(lost_contact_words(lost, int(chosen.sum())) + mark)
     width = max(30, int(14 * figure.get_figwidth()))
     figure.suptitle("\n".join([textwrap.fill(sweep.title, width), *textwrap.wrap(", ".join(words), width)]), fontsize=9)
 

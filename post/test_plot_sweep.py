@@ -229,3 +229,45 @@ def test_a_film_that_is_not_there_is_not_drawn_as_a_thin_one(grid):
     assert np.isnan(values[:3]).all() and np.allclose(values[3:], 0.25)
     smallest = Sweep(grid, ["min_film_thickness_min"], over=["speed_rpm"], take="smallest").quantities["min_film_thickness_min"][0]
     assert np.isnan(smallest[:3]).all() and np.allclose(smallest[3:], 0.25)
+
+
+def test_cases_that_lose_contact_are_marked_and_counted(grid):
+    """Nine of the cases of the law that is drawn, one of the other."""
+    lost = np.zeros(180)
+    lost[160:178:2], lost[1] = 0.1, 0.2
+    with h5py.File(grid, "r+") as file:
+        file["summary/lost_contact_share"] = lost
+    sweep = Sweep(grid, ["mean_torque_drive"])
+    for draw, words in ((draw_map, "9 of 90 cases (crosses)"), (draw_curves, "9 of 90 cases (open circles)"),
+                        (draw_scatter, "10 of 180 cases (circles)"), (draw_parallel, "10 of 180 cases")):
+        assert f"contact is lost in {words}" in draw(sweep).get_suptitle().replace("\n", " ")
+    crosses, = draw_map(sweep).axes[0].lines
+    assert np.array_equal(crosses.get_xdata(), sweep.keys["operating_point.speed_rpm"][0][160:178:2])
+    circles = [line for line in draw_curves(sweep).axes[0].lines if line.get_markerfacecolor() == "white"]
+    assert sum(len(line.get_xdata()) for line in circles) == 9
+    assert len(draw_scatter(sweep).axes[0].collections[1].get_offsets()) == 10
+    assert "lost" not in draw_map(Sweep(grid, ["mean_torque_drive"], ["speed_rpm < 800"])).get_suptitle()
+
+
+def test_a_map_ends_where_the_results_do(grid):
+    axes = draw_map(Sweep(grid, ["mean_torque_drive"])).axes[0]
+    assert axes.get_xlim() == (300, 900) and axes.get_ylim() == (40, 120)
+
+
+def test_numbers_along_the_lower_axis_tell_close_values_apart(tmp_path):
+    path = write(tmp_path / "near.h5", {"a.x": ([1.2345678e-3, 1.2345679e-3, 1.234568e-3], "1")}, [1.0, 2.0, 3.0])
+    for draw in (draw_curves, draw_scatter):
+        figure = draw(Sweep(path, ["mean_torque_drive"]))
+        figure.draw_without_rendering()
+        axis = figure.axes[0].xaxis
+        assert [text.get_text() for text in axis.get_ticklabels()] == ["0.0012345678", "0.001234568"]
+        assert not axis.get_offset_text().get_text()
+
+
+def test_a_limit_that_is_never_reached_is_told_from_no_result(grid, capsys):
+    with h5py.File(grid, "r+") as file:
+        file["summary/margin"], file["summary/nothing"] = np.full(180, np.inf), np.full(180, np.nan)
+    assert main([str(grid), "--quantity", "margin"]) == 2
+    assert "no case has a finite value of margin; infinity stands for a limit" in capsys.readouterr().err
+    assert main([str(grid), "--quantity", "nothing"]) == 2
+    assert "no case has a value of nothing\n" in capsys.readouterr().err
