@@ -79,7 +79,7 @@ class Layout:
             kept = [entry for entry in self.entries if entry.file != number or entry.case in there]
             if not any(entry.file == number for entry in kept):
                 raise ResultError(f"{result.path}: no series of these cases in the file; it has those of "
-                                  f"{_some(sorted(there)) or 'none'}: 'series' and 'series_cases' in &sweep choose")
+                                  f"{some_numbers(sorted(there)) or 'none'}: 'series' and 'series_cases' in &sweep choose")
             self.entries = kept
             remarks.append(f"{result.path}: series of {len(there)} of {result.cases} cases are in the file; only these are drawn")
         return remarks
@@ -282,7 +282,7 @@ def _example(layout):
     return "KEY=VALUE"
 
 
-def _some(cases, most=8):
+def some_numbers(cases, most=8):
     """Some numbers in words."""
     return ", ".join(map(str, cases[:most])) + (" ..." if len(cases) > most else "")
 

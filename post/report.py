@@ -25,7 +25,7 @@ from figures import draw  # noqa: E402
 from layout import Layout  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, opened, read_result, text_of  # noqa: E402
-from table import column_of, plain, usual_columns, worst_of_lobes  # noqa: E402
+from table import column_of, swept_texts, usual_columns, worst_of_lobes  # noqa: E402
 from units import key_words, unit_words, with_unit  # noqa: E402
 
 SHOWN = ["mean_torque", "mean_slip", "pressure", "film_ratio", "friction_sources", "drive_torque", "slip"]
@@ -83,7 +83,7 @@ def table_of(result):
     cases = list(range(min(result.cases, MOST_ROWS)))
     failed = {case for case, _ in result.failed_cases()}
     cases = [case for case in cases if case not in failed]
-    columns = [[with_unit(key_words(key, quantity.units), unit_words(quantity.units)), *(plain(result.value_of(key, case)) for case in cases)]
+    columns = [[with_unit(key_words(key, quantity.units), unit_words(quantity.units)), *swept_texts(result, key, cases)]
                for key, quantity in result.sweep.items()]
     worst, line = worst_of_lobes(result)
     columns += [column_of(worst, name, [[case] for case in cases], '', words, unit) for name, words, unit in usual_columns(result)]

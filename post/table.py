@@ -21,9 +21,9 @@ import sys
 import numpy as np
 
 from command import run, whole_number
-from layout import TAKEN, chosen_cases, groups_over, not_computed, not_computed_words
+from layout import TAKEN, chosen_cases, groups_over, lost_contact, lost_contact_words, not_computed, not_computed_words, some_numbers
 from read import ResultError, read_result
-from units import factor, fitting_unit, number, with_unit
+from units import distinct_texts, factor, fitting_unit, number, with_unit
 
 # Scalar of the summary, heading, unit; of scalars with one heading the first that a file has counts
 COLUMNS = [
@@ -60,9 +60,9 @@ def usual_columns(result):
     return list(rows.values())
 
 
-def plain(value) -> str:
-    """A swept value as a deck would have it."""
-    return f'{value:g}' if isinstance(value, float) else str(value)
+def swept_texts(result, key, cases) -> list[str]:
+    """Values of a swept key in these cases as a deck would have them, with as many digits as it takes to tell them apart."""
+    return distinct_texts([result.value_of(key, case) for case in cases], 6)
 
 
 def worst_of_lobes(result):
@@ -116,7 +116,7 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
     usual = {row[0]: row for row in usual_columns(result)}
     result, line = worst_of_lobes(result) if columns is None else (result, '')
     chosen = list(usual.values()) if columns is None else \
-        [usual.get(name, (name, None, None)) if take == RANGE else (name, None, None) for name in columns]
+        [(name, None, usual[name][2] if take == RANGE and name in usual else None) for name in columns]
     if not chosen:
         raise ResultError(f'{result.path}: none of the usual scalars in the summary; choose with --columns')
     cases = chosen_cases(result, selections)
@@ -126,7 +126,7 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
     shown = groups[:rows]
     last = [key.split('.')[-1] for key in result.sweep]
     made = [['case', *(str(group[0]) for group in shown)]] if not over and (selections or not result.is_grid()) else []
-    made += [[name if last.count(name) == 1 else key, *(plain(result.value_of(key, group[0])) for group in shown)]
+    made += [[name if last.count(name) == 1 else key, *swept_texts(result, key, [group[0] for group in shown])]
              for key, name in zip(result.sweep, last) if key not in gone]
     if over:
         made.append(['cases', *(str(len(group)) for group in shown)])
@@ -140,14 +140,22 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
 
 def left_out(result, groups, count, what) -> list[str]:
     """Lines below the table: how many cases a partial file does not have, how many rows are left out, and which of the cases in those
-    shown have no result."""
+    shown have no result or lose contact."""
     lines = [f'{not_computed_words(result)}: the file is partial.'] if not_computed(result) else []
     if count < len(groups):
         lines.append(f'{len(groups) - count} of {len(groups)} {what} are left out: --all prints them, --cases chooses.')
     shown = {case for group in groups[:count] for case in group} - not_computed(result)
     failed = [(case, reason) for case, reason in result.failed_cases() if case in shown]
     lines += [f'Case {case} has no result: {reason}'.rstrip(': ') for case, reason in failed]
-    return lines
+    return lines + lost_contact_lines(result, sorted(shown))
+
+
+def lost_contact_lines(result, cases) -> list[str]:
+    """A line that names those of some cases that lose contact; none where there is none."""
+    lost = [case for case, is_lost in zip(cases, lost_contact(result)[cases]) if is_lost]
+    which = f' ({some_numbers(lost)})' if len(cases) > 1 else ''
+    words = lost_contact_words(len(lost), len(cases)).capitalize()
+    return [f'{words}{which}: loads and friction of a rigid train are not realistic there.'] if lost else []
 
 
 def main(arguments=None) -> int:

@@ -153,7 +153,7 @@ def test_rows_over_speeds_have_the_range_of_them(tmp_path):
     result = read_result(path)
     slip = 100.0 * result.summary["mean_slip_ratio"].values.reshape(3, 3)
     head, *body = rows(table_of(result, ["mean_slip_ratio"], over=["speed_rpm"], take="range"))
-    assert head == ["oil_temperature_degC", "cases", "range mean slip [%]"]
+    assert head == ["oil_temperature_degC", "cases", "range mean_slip_ratio [%]"]
     ends = [[float(end) for end in row[2].split(" to ")] for row in body]
     assert ends == [pytest.approx([low, high], rel=6e-3) for low, high in zip(slip.min(0), slip.max(0))]
 
@@ -206,3 +206,30 @@ def test_peak_pressure_is_that_along_the_roller_where_there_is_one(grid):
     assert head.count("peak pressure [GPa]") == 1 and first[head.index("peak pressure [GPa]")] == "1.25"
     shown = re.search(r"<table>.*?</table>", report.table_of(result), re.S)[0]
     assert shown.count("peak pressure") == 1 and ">1.25<" in shown and "0.975" not in shown
+
+
+def test_a_scalar_chosen_by_name_has_its_name_and_not_the_heading_of_the_worst_lobe_shape(grid):
+    with h5py.File(grid, "a") as file:
+        for name, value in (("min_film_thickness_min", 2e-7), ("min_lobe_2_film_thickness_min", 1e-7)):
+            file[f"summary/{name}"] = np.full(60, value)
+            file[f"summary/{name}"].attrs["units"] = "m"
+    head, first, *_ = rows(table_of(read_result(grid), ["min_film_thickness_min"], over=["speed_rpm"], take="range"))
+    assert (head[-1], first[-1]) == ("range min_film_thickness_min [um]", "0.200 to 0.200")
+    head, first, *_ = rows(table_of(read_result(grid), over=["speed_rpm"], take="range"))
+    assert dict(zip(head, first))["range smallest film [um]"] == "0.100 to 0.100"
+
+
+def test_swept_values_that_differ_late_are_told_apart(tmp_path):
+    path = write_result(tmp_path / "near.h5", points=((300.0, 25.0), (300.0000001, 25.0), (900.0, 25.0)), step=30.0)
+    shown = {"300.0000001", "300", "900"}
+    assert {row[0] for row in rows(table_of(read_result(path)))[1:]} == shown
+    assert set(re.findall(r"<td>([\d.]+)</td><td>25</td>", report.table_of(read_result(path)))) == shown
+
+
+def test_rows_with_lost_contact_are_named(grid):
+    assert "contact" not in table_of(read_result(grid), ["estimated_error"], rows=5)
+    with h5py.File(grid, "a") as file:
+        file["summary/lobe_2_lost_contact_share"] = np.where(np.isin(np.arange(60), (2, 4, 30)), 0.1, 0.0)
+    text = table_of(read_result(grid), ["estimated_error"], rows=5)
+    assert "Contact is lost in 2 of 5 cases (2, 4): loads and friction of a rigid train are not realistic there." in text
+    assert "Contact is lost" not in table_of(read_result(grid), ["estimated_error"], rows=2)
