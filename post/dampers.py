@@ -6,14 +6,14 @@ import numpy as np
 
 from parts import head, legend_handles, legend_height
 from quantities import Missing, mean_of
-from units import unit_words
+from units import number, unit_words
 
 # Scalar, words
 DAMPERS = (("damping_work_cam", "cam and roller"), ("damping_work_pad", "pad at the valve"), ("damping_work_seat", "valve seat"),
            ("damping_work_spring", "spring"), ("damping_work_plunger", "plunger's wall"), ("damping_work_stops", "plunger's stops"),
            ("damping_work_leak", "leak of the adjuster"), ("damping_work_check_valve", "check valve"))
 UNIT = "mJ"
-SHOWN = 1e-5  # of the largest energy: what is less has no bar
+SHOWN = 1e-9  # of the largest energy: what is less has no bar, and the title says so
 ROOM = 0.8  # of the distance from damper to damper, for its bars
 MOST_PANELS = 3
 
@@ -29,17 +29,20 @@ def dampers_figure(layout, _whole_cycle=None):
     if not lost:
         raise Missing("energies lost in dampers: &dynamics")
     top = max(most.values())
+    positive = [value for values in lost.values() for of_panel in values for value in of_panel if value > 0.0]
+    least = max(0.5 * min(positive), SHOWN * top)
+    cut = [f"energies below {number(least)} {UNIT} have no bar"] if min(positive) < least else []
     lines, legend_columns = legend_handles(layout, layout.drawn(layout.shown_colours(), panels))
     legend = [_as_bar(line) for line in lines], legend_columns
     size = 5.0 + 2.5 * len(panels), 1.6 + (0.13 * max(map(len, columns)) + 0.1) * len(lost)
     figure = Figure(figsize=(size[0], size[1] + legend_height(legend, size[0])), layout="constrained")
     for place, (axes, panel, entries) in enumerate(zip(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels, columns)):
         width = ROOM / len(entries)
-        for number, entry in enumerate(entries):
-            axes.barh(np.arange(len(lost)) + (number + 0.5) * width - 0.5 * ROOM, [values[place][number] for values in lost.values()], width,
+        for index, entry in enumerate(entries):
+            axes.barh(np.arange(len(lost)) + (index + 0.5) * width - 0.5 * ROOM, [values[place][index] for values in lost.values()], width,
                       color=layout.style(entry)["color"])
         axes.set_xscale("log")
-        axes.set_xlim(SHOWN * top, 2.0 * top)
+        axes.set_xlim(least, 2.0 * top)
         axes.set_xlabel(f"energy lost in a turn [{unit_words(UNIT)}]")
         axes.grid(True, axis="x", color="0.9", linewidth=0.6)
         axes.set_axisbelow(True)
@@ -47,7 +50,8 @@ def dampers_figure(layout, _whole_cycle=None):
             axes.set_title(layout.panel_name(panel), fontsize="medium")
     figure.axes[0].set_yticks(range(len(lost)), lost)
     figure.axes[0].set_ylim(len(lost) - 0.5, -0.5)
-    head(figure, layout, "energy lost in a turn by damper", legend, layout.shown_words(layout.shown_colours(), panels))
+    head(figure, layout, "energy lost in a turn by damper", legend,
+         [*layout.shown_words(layout.shown_colours(), panels), *cut])
     return figure
 
 

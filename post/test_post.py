@@ -184,6 +184,24 @@ def test_energy_lost_by_damper_has_a_bar_for_each_number_of_the_file(tmp_path):
         draw("dampers", Layout([read_result(path)]))
 
 
+def shown_title(figure):
+    """What stands above a figure: the title of its legend."""
+    return figure.legends[0].get_title().get_text()
+
+
+def test_every_energy_lost_has_a_bar_or_a_word(tmp_path):
+    path = write_result(tmp_path / "two.h5", swept=(SPEED,), speeds=(300.0, 600.0), oils=(60.0,))
+    with h5py.File(path, "a") as file:
+        file["summary/damping_work_cam"][...] = [1e-9, 1e-3]
+    figure = draw("dampers", Layout([read_result(path)]))
+    [axes] = figure.axes
+    assert all(bar.get_width() >= 1.5 * axes.get_xlim()[0] for bar in axes.patches) and "no bar" not in shown_title(figure)
+    with h5py.File(path, "a") as file:
+        file["summary/damping_work_cam"][0] = 1e-18
+    figure = draw("dampers", Layout([read_result(path)]))
+    assert figure.axes[0].get_xlim()[0] == pytest.approx(1e-9) and "energies below 1.00e-09 mJ have no bar" in shown_title(figure)
+
+
 def test_turns_of_a_train_that_does_not_repeat_are_drawn_one_by_one(tmp_path):
     path = write_result(tmp_path / "two.h5", swept=(SPEED,), speeds=(300.0, 600.0), oils=(60.0,))
     with h5py.File(path, "a") as file:
