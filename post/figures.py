@@ -232,3 +232,5 @@ FIGURES = {
     "dampers": dampers_figure,
     "turns": turns_figure,
 }
+#: Figures of what a file has without series as well
+WITHOUT_SERIES = ("running_in", "mean_slip", "mean_torque", "dampers", "turns")

@@ -10,7 +10,8 @@ Needs no display. Colours distinguish the values of the first swept key, panels 
 cases that are no grid (lists side by side, tables, samples) have a label each, and have to be chosen
 where they are too many. Families of colours and line styles distinguish files, which are named by the titles
 that their decks give. A figure whose quantities are not in the files (the effect is not in the case)
-is left out and a line says so. A file of a sweep without series has bar charts of its means;
+is left out and a line says so. A file of a sweep without series has no curves over the cam angle,
+but bar charts of its means and what happens over hours or turns;
 plot_sweep.py draws how any summary answers to what the sweep varies. Exit code 0 if something was
 drawn, 2 if a file or an option cannot be used.
 """
@@ -27,7 +28,7 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
                             "svg.hashsalt": "camroller", "hatch.linewidth": 0.6, "hatch.color": "white"})
 
 from command import DPI, run, save_figure  # noqa: E402
-from figures import FIGURES, draw  # noqa: E402
+from figures import FIGURES, WITHOUT_SERIES, draw  # noqa: E402
 from layout import Layout, chosen_cases, not_computed, not_computed_words  # noqa: E402
 from measured import case_words, cases_for, compare, draw_comparison, read_table  # noqa: E402
 from quantities import Missing  # noqa: E402
@@ -50,9 +51,9 @@ def main(arguments=None):
         folder = Path(options.output) if options.output else results[0].path.parent
         names = list(FIGURES) if options.figure == "all" else [options.figure]
         if not any(result.series for result in results) and options.figure == "all":
-            print(f"no series in {', '.join(str(result.path) for result in results)}, so only means are drawn: plot_sweep.py draws "
+            print(f"no series in {', '.join(str(result.path) for result in results)}, so no curves are drawn: plot_sweep.py draws "
                   "other summaries, and series = 'all' or 'chosen' in &sweep keeps the series")
-            names = [name for name in names if name.startswith("mean_")]
+            names = list(WITHOUT_SERIES)
         drawn = [draw_to_file(name, layout, folder, options) for name in names]
     except ResultError as error:
         print(f"plot.py: {error}", file=sys.stderr)

@@ -7,7 +7,7 @@ import pytest
 
 from command import run
 import figures
-from figures import FIGURES, draw
+from figures import FIGURES, WITHOUT_SERIES, draw
 from layout import MOST_LISTED, Layout, thin_out, wrapped
 from parts import event_window
 from plot import main
@@ -236,12 +236,13 @@ def test_of_chosen_cases_the_failed_ones_are_told(tmp_path, capsys):
     assert "nine.h5: case 1 has no result: a.x=2, a.y=3: no balance\n" in words and "case 8" not in words
 
 
-def test_a_sweep_without_series_has_its_means_drawn(tmp_path, capsys):
+def test_a_sweep_without_series_has_all_drawn_that_needs_none(tmp_path, capsys):
     path = without_series(write_result(tmp_path / "sweep.h5", points=ZIP, step=15.0))
     assert main([str(path)]) == 0
     said = capsys.readouterr().out
     assert said.count("no series in") == 1 and "plot_sweep.py" in said
-    assert sorted(made.name for made in tmp_path.glob("*.png")) == ["sweep_mean_slip.png", "sweep_mean_torque.png"]
+    assert sorted(made.name for made in tmp_path.glob("*.png")) == sorted(f"sweep_{name}.png" for name in WITHOUT_SERIES)
+    assert {"dampers", "turns", "running_in"} < set(WITHOUT_SERIES)
     assert main([str(path), "--figure", "film"]) == 2
     figure = draw("mean_torque", Layout([read_result(path)]))
     assert len(figure.axes[0].patches) == 3 * 4
