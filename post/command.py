@@ -72,6 +72,8 @@ def write_file(target, write):
     """
     place, beside = Path(os.path.realpath(target)), None
     try:
+        if place.parent.exists() and not place.parent.is_dir():
+            raise ResultError(f"{target}: cannot be written: {target.parent} is a file and no folder")
         place.parent.mkdir(parents=True, exist_ok=True)
         if place.exists() and not place.is_file():
             raise ResultError(f"{target}: cannot be written: not a regular file")

@@ -6,7 +6,7 @@
 
 One panel each for mean torque, smallest film, slip and time: a bar from the smallest to the largest change without each effect over
 the cases, a dot for each case, and for the first three a cross for what was expected before the run; how many cases and runs without
-an effect have no result. Needs no display. Exit code 2 where the file is no audit.
+an effect have no result, and what is not shown. Needs no display. Exit code 2 where the file is no audit.
 """
 
 import argparse
@@ -29,6 +29,7 @@ COLUMNS = ["case", "run", "effect", "status", "time_share", "is_left_out",
            *(prefix + name for name in QUANTITIES for prefix in ("change_", "estimate_"))]
 FLOOR = 1e-7  # changes below are drawn there: the accuracy of the runs
 UNKNOWN = 1e10  # estimates from here on mean that nothing can be said
+FAR = 5.0  # widths of the middle half of all shares of time: what is farther from that half was disturbed by the machine, and is not shown
 
 
 def read_audit(path):
@@ -80,19 +81,37 @@ def draw(audit):
                       label="expected at most")
         axes.set(xscale="log", title=title, xlabel="relative change [-]", xlim=(0.5 * FLOOR, None))
         axes.grid(True, axis="x", which="major", linewidth=0.3)
-    for place, name in zip(places, names):
-        share = 100.0 * audit["time_share"][without(audit, name)]
-        panels[3].plot(share, np.full(share.size, place), "o", color="#08306b", markersize=3)
-        panels[3].plot([np.median(share)], [place], "|", color="#d55e00", markersize=14, markeredgewidth=2)
-    panels[3].axvline(0.0, color="black", linewidth=0.5)
-    panels[3].set(title="time that leaving it out saves", xlabel="part of the run [%]")
-    panels[3].grid(True, axis="x", which="major", linewidth=0.3)
+    words = [*left_out(audit), *unknown_words(audit), *_draw_times(panels[3], audit, places)]
     panels[0].set_yticks(places, [name.replace("_", " ") for name in names])
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles[:2], labels[:2], loc="outside lower center", ncols=2, frameon=False)
-    if left_out(audit):
-        figure.suptitle(", ".join(left_out(audit)), fontsize="medium")
+    marks = {label: handle for axes in (panels[0], panels[3]) for handle, label in zip(*axes.get_legend_handles_labels())}
+    figure.legend(marks.values(), marks, loc="outside lower center", ncols=len(marks), frameon=False)
+    if words:
+        figure.suptitle(", ".join(words), fontsize="medium")
     return figure
+
+
+def unknown_words(audit):
+    """How many expectations are not drawn, as they say nothing: parts of a sentence."""
+    estimates = [audit["estimate_" + quantity][without(audit, name)] for name in effects(audit) for quantity in QUANTITIES]
+    unknown = sum(int((estimate >= UNKNOWN).sum()) for estimate in estimates)
+    return [f"{unknown} of {sum(map(len, estimates))} changes have no bound beforehand"] if unknown else []
+
+
+def _draw_times(axes, audit, places):
+    """The share of time that each run without an effect saves, and their median; returns words on those beyond the axis."""
+    shares = [100.0 * audit["time_share"][without(audit, name)] for name in effects(audit)]
+    low, high = np.percentile(np.concatenate(shares), [25, 75])
+    reach = FAR * max(high - low, 1.0)  # [%]: a clock tells less apart
+    ends, outside = (min(low - reach, 0.0), max(high + reach, 0.0)), 0
+    for place, share in zip(places, shares):
+        far = (share < ends[0]) | (share > ends[1])
+        outside += int(far.sum())
+        axes.plot(share[~far], np.full((~far).sum(), place), "o", color="#08306b", markersize=3)
+        axes.plot([np.clip(np.median(share), *ends)], [place], "|", color="#d55e00", markersize=14, markeredgewidth=2, label="median of the time saved")
+    axes.axvline(0.0, color="black", linewidth=0.5)
+    axes.set(title="time that leaving it out saves", xlabel="part of the run [%]")
+    axes.grid(True, axis="x", which="major", linewidth=0.3)
+    return [f"{outside} of {sum(map(len, shares))} times beyond {ends[0]:.0f} to {ends[1]:.0f} % not shown"] if outside else []
 
 
 def table(audit):

@@ -29,6 +29,12 @@ NONE_AT_ZERO = re.compile(r"seating_speed$|^min_(.*_)?film_(thickness_min|thickn
 SLOWEST_READ = 1e7  # bytes that are read in a second at least
 
 
+#: What else the program writes than results: a group of it, its name, what is in it, and the script that reads it
+OTHER_FILES = {"study/study": ("a study", "what `camroller study` has measured", "plot_study.py"),
+               "study/audit": ("an audit", "what `camroller audit` has measured", "plot_audit.py"),
+               "ehl": ("a file of solved contacts", "the solved contacts of `camroller ehl`", "ehl.py")}
+
+
 class ResultError(Exception):
     """The file cannot be used; the text says why in one line."""
 
@@ -142,7 +148,11 @@ def opened(path, kind="a result file of camroller"):
         raise ResultError(f"{path}: not a regular file")
     try:
         with _time_limit(path), h5py.File(path, "r") as file:
-            yield file
+            try:
+                yield file
+            except KeyError:
+                _refuse_other_kind(path, file, kind)
+                raise
     except ResultError:
         raise
     except Exception as error:  # pylint: disable=broad-except
@@ -155,6 +165,15 @@ def opened(path, kind="a result file of camroller"):
         else:
             reason = f"not {kind}, or damaged: {reason}"
         raise ResultError(f"{path}: {reason}") from None
+
+
+def _refuse_other_kind(path, file, wanted):
+    """ResultError where a file that lacks something is known to be of another kind than that wanted."""
+    for group, (kind, words, script) in OTHER_FILES.items():
+        if group in file and kind != wanted:
+            raise ResultError(f"{path}: {words}, not {wanted}; post/{script} draws it")
+    if "summary/status" in file and wanted in [kind for kind, *_ in OTHER_FILES.values()]:
+        raise ResultError(f"{path}: the results of a run or sweep, not {wanted}; post/plot.py draws them")
 
 
 @contextmanager
@@ -187,12 +206,6 @@ def text_columns(group):
     return {name: _quantity(data).values for name, data in group.items()}
 
 
-#: What else the program writes: a group of it, what it is, and the script that reads it
-OTHER_FILES = {"study/study": ("what `camroller study` has measured", "plot_study.py"),
-               "study/audit": ("what `camroller audit` has measured", "plot_audit.py"),
-               "ehl": ("the solved contacts of `camroller ehl`", "ehl.py")}
-
-
 def read_result(path, with_series=True):
     """Read a result file into memory; raise ResultError with one clear line if it is not one."""
     path = Path(path)
@@ -205,9 +218,9 @@ def _read(path, file, with_series):
     # a file of solved contacts has the status of its cases and nothing else in its summary
     is_other = "status" not in summary or ("ehl" in file and summary == {"status"})
     if "series" not in file or ("cam_angle" not in file["series"] and is_other):
-        for group, (kind, script) in OTHER_FILES.items():
+        for group, (_, words, script) in OTHER_FILES.items():
             if group in file:
-                raise ResultError(f"{path}: {kind}, not the results of a run; post/{script} draws it")
+                raise ResultError(f"{path}: {words}, not the results of a run; post/{script} draws it")
         raise ResultError(f"{path}: not a result file of camroller (neither /series/cam_angle nor /summary/status)")
     if not any(int(np.ravel(file.attrs.get(name, 0))[0]) for name in ("complete", "missing_cases")):
         raise ResultError(f"{path}: not complete: the run that wrote it did not finish")

@@ -46,7 +46,17 @@ def test_cases_without_a_result_are_counted(path, tmp_path, capsys, monkeypatch)
     figures = []
     monkeypatch.setattr(plot_audit, "save_figure", lambda figure, *_, **__: figures.append(figure))
     assert main([str(path), "--output", str(tmp_path)]) == 0
-    assert figures[0].get_suptitle() == "1 of 2 cases has no result"
+    assert figures[0].get_suptitle() == "1 of 2 cases has no result, 3 of 6 changes have no bound beforehand"
+
+
+def test_a_time_that_the_machine_disturbed_does_not_hide_the_others(path):
+    audit = {name: np.tile(values, 4) for name, values in read_audit(path).items()}
+    figure = plot_audit.draw(audit)
+    assert "not shown" not in figure.get_suptitle()
+    assert "median of the time saved" in [text.get_text() for text in figure.legends[0].get_texts()]
+    audit["time_share"][1] = -5.78
+    figure = plot_audit.draw(audit)
+    assert figure.axes[3].get_xlim()[0] > -500 and "1 of 12 times beyond" in figure.get_suptitle()
 
 
 def test_a_figure_is_drawn(path, tmp_path, capsys):

@@ -63,3 +63,20 @@ def test_a_file_that_is_no_study_is_refused(tmp_path, capsys):
         file["x"] = 1
     assert main([str(tmp_path / "other.h5")]) == 2
     assert "not a study" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("group, words", [
+    ("study/audit", "what `camroller audit` has measured, not a study; post/plot_audit.py draws it"),
+    ("ehl", "the solved contacts of `camroller ehl`, not a study; post/ehl.py draws it"),
+    ("summary", "the results of a run or sweep, not a study; post/plot.py draws them")])
+def test_a_file_of_another_kind_is_named(tmp_path, capsys, group, words):
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file[f"{group}/status"] = [0]
+    assert main([str(tmp_path / "other.h5")]) == 2
+    assert capsys.readouterr().err.endswith(f"other.h5: {words}\n")
+
+
+def test_a_file_in_the_place_of_the_folder_is_told(path, tmp_path, capsys):
+    (tmp_path / "t.txt").write_text("mine")
+    assert main([str(path), "--output", str(tmp_path / "t.txt")]) == 2
+    assert f"{tmp_path / 't.txt'} is a file and no folder" in capsys.readouterr().err
