@@ -111,12 +111,13 @@ audit: build ## influence and cost of each effect of decks/thesis.nml: tables an
 	$(PYTHON) post/plot_audit.py results/thesis_audit.h5 --output doc/figures --name thesis_effects
 	$(PYTHON) post/plot_audit.py results/thesis_audit.h5 --table
 
-trends: build ## which measured trends the model reproduces over the ranges of uncertain coefficients: doc/trends.md and its figure, two minutes
+trends: build ## which measured trends the model reproduces over the ranges of uncertain coefficients and laws: doc/trends.md and its figure, two minutes
 	@mkdir -p results
 	$(PYTHON) post/trends.py --cases results/trends
 	build/release/bin/camroller sweep results/trends/trends.nml -o results/trends/trends.h5 --quiet
 	build/release/bin/camroller sweep results/trends/trends.nml --set "asperity.mobilisation='stick_slip'" -o results/trends/sticking.h5 --quiet
-	$(PYTHON) post/trends.py results/trends/trends.h5 results/trends/sticking.h5 --page doc/trends.md --figure doc/figures/trends.png
+	build/release/bin/camroller sweep results/trends/pin.nml -o results/trends/pin.h5 --quiet
+	$(PYTHON) post/trends.py results/trends/trends.h5 results/trends/sticking.h5 results/trends/pin.h5 --page doc/trends.md --figure doc/figures/trends.png
 
 dynamics: build ## a flexible train at four speeds and over all speeds: figures of doc/dynamics.md, half a minute
 	@mkdir -p results
