@@ -5,7 +5,7 @@
 !> `run_sweep` for all cases of a deck into one file, `sweep_cases` to have them handed over to an extension of `sink_t`. Where
 !> cases have a numerical film, it calls `use_one_blas_thread` first, or its last digits depend on how many threads OpenBLAS takes.
 module camroller ! style: private because it gives on all that it uses
-   use camroller_core ! style: only because it gives on all of it
+   use camroller_core
    use camroller_case_loop, only : sweep_cases
    use camroller_case_record, only : case_outcome_t
    use camroller_case_sink, only : sink_t

@@ -3,8 +3,8 @@
 
 Usage: tools/check_style.py [--root DIR]
 
-Everywhere: no tabs, no trailing blanks, lines within 132 characters (the limit of the language), `only` in every use, no name in
-it that stands nowhere else, `implicit none`, files within 500 lines, procedures within 60 lines of code. In src and app: one module a file, named after it
+Everywhere: no name after `only` that stands nowhere else, files within 500 lines, procedures within 60 lines of code (`only` itself,
+`implicit none`, width of lines, tabs and blanks at their ends are the linter's). In src and app: one module a file, named after it
 with our prefix, `private` at its top, a unit in brackets on every real declaration, and no write into a text, which ends the program where the
 text is too short (src/base/number_text.f90 has the routines for that; a unit is known by its name, `...unit` or `*`); no print and
 no unit for output or errors, whose text is lost without an error where the disk is full (src/files/streams.f90 has the routines for that).
@@ -24,7 +24,6 @@ import sys
 from fortran_source import ROOT, Statement, sources, statements
 
 PREFIX = "camroller"
-LINE_LIMIT = 132
 FILE_LIMIT = 500
 PROCEDURE_LIMIT = 60
 # Folders whose files one thread calls at a time: there a function may return a text of any length.
@@ -64,14 +63,7 @@ class Report:
 
 
 def check_lines(report: Report) -> None:
-    """Rules on lines as they are."""
-    for number, line in enumerate(report.lines, 1):
-        if "\t" in line:
-            report.add(number, "tab", "a tab")
-        if line != line.rstrip():
-            report.add(number, "blank", "blanks at the end of the line")
-        if len(line) > LINE_LIMIT:
-            report.add(number, "width", f"{len(line)} characters; the limit is {LINE_LIMIT}")
+    """Length of the file."""
     if len(report.lines) > FILE_LIMIT:
         report.add(1, "length", f"{len(report.lines)} lines in one file; the limit is {FILE_LIMIT}")
 
@@ -126,8 +118,6 @@ def check_statements(report: Report, code: list[Statement], folder: str) -> None
     """Rules on single statements."""
     for statement in code:
         text = statement.text
-        if re.match(r"^use\b(?!.*\bonly\b)", text) and not re.match(r"^use\s*=", text):
-            report.add(statement.line, "only", "use without only")
         if folder == "src" and re.match(r"^(?:if\s*\(.*\)\s*)?(?:error\s+)?stop\b(?!\s*=)", text):
             report.add(statement.line, "stop", "stop in the library")
         if folder in ("src", "app") and re.match(r"^(?:if\s*\(.*\)\s*)?(?:print\b(?!\s*=)|write\s*\(\s*\*\s*,)", text):
@@ -170,7 +160,7 @@ def check_lengths(report: Report, code: list[Statement]) -> None:
 
 
 def check_units_of_program(report: Report, code: list[Statement], path: pathlib.Path, folder: str) -> None:
-    """One program unit a file with the right name; `implicit none` and, in modules, `private`."""
+    """One program unit a file with the right name; `private` in modules."""
     found = [(s.line, match[1], match[2]) for s in code if (match := PROGRAM_UNIT.match(s.text))]
     if len(found) != 1:
         report.add(1, "module", f"{len(found)} modules or programs in one file; one is right")
@@ -178,8 +168,6 @@ def check_units_of_program(report: Report, code: list[Statement], path: pathlib.
     line, kind, name = found[0]
     if folder in ("src", "app") and kind == "module" and path.stem != PREFIX and name != f"{PREFIX}_{path.stem}":
         report.add(line, "name", f"module {name} in {path.name}; {PREFIX}_{path.stem} is right")
-    if not any(s.text == "implicit none" or s.text.startswith("implicit none (") for s in code):
-        report.add(line, "implicit", "no implicit none")
     if kind == "module" and not any(s.text == "private" for s in code):
         report.add(line, "private", "no private at the top of the module")
 
