@@ -108,16 +108,6 @@ def test_each_deck_passes_the_check(camroller, deck):
     assert " is valid: " in result.stdout.splitlines()[0]
 
 
-def test_check_prints_a_deck(camroller, tmp_path):
-    first = run(camroller, "check", "decks/thesis.nml", "--set", "film.law=moes")
-    again = tmp_path / "again.nml"
-    again.write_text(first.stdout)
-    second = run(camroller, "check", again)
-    values = [line.split("!")[0].rstrip() for line in first.stdout.splitlines()]
-    assert values == [line.split("!")[0].rstrip() for line in second.stdout.splitlines()]
-    assert "   law = 'moes'" in values
-
-
 def test_defaults_are_a_deck(camroller, tmp_path):
     deck = tmp_path / "complete.nml"
     deck.write_text(run(camroller, "defaults").stdout)

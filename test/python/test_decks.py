@@ -68,6 +68,9 @@ def test_what_check_prints_is_a_deck(camroller, deck, tmp_path):
     assert first.returncode == 0, first.stderr
     again = tmp_path / "again.nml"
     again.write_text(re.sub(r"'([./]*tables/[^']*)'", lambda match: f"'{(ROOT / 'decks' / deck).parent / match[1]}'", first.stdout))
+    printed = subprocess.run([camroller, "check", again], capture_output=True, text=True, check=False).stdout
+    values, values_again = ([line.split("!")[0].rstrip() for line in text.splitlines()] for text in (again.read_text(), printed))
+    assert values == values_again
     # a folder cannot be written to: the deck is read, and nothing computed
     second = subprocess.run([camroller, "run", again, "-o", tmp_path], capture_output=True, text=True, check=False)
     assert second.returncode == 6, second.stderr
