@@ -8,7 +8,8 @@
 Scalars of the summary and series over the cam angle together, in SI, with units and meanings as attributes. Of a grid each swept key is
 a dimension, in the order of its values; of any other set of cases the keys are coordinates along `case`. A key has its last part as its
 name, or the whole key where two have the same last part. Columns of a table of cases that hold measured values are variables whose names
-begin with `measured_`.
+begin with `measured_`. What happens over hours of running or from turn to turn has a dimension of its own beside the cases and names
+that begin with `running_in_` or `turns_`. Solved contacts (`/ehl`) are not read.
 """
 
 import numpy as np
@@ -22,11 +23,12 @@ def open_dataset(path, with_series=True):
     result = read_result(path, with_series)
     last = [key.rpartition(".")[2] for key in result.sweep]
     names = {key: name if last.count(name) == 1 else key for key, name in zip(result.sweep, last)}
+    groups = [(result.summary, "", ["case"]), (result.series, "", ["case", "cam_angle"]), (result.measured, "measured_", ["case"]),
+              (result.history, "running_in_", ["case", "running_time_part"]), (result.turns, "turns_", ["case", "turn"])]
     cases = xarray.Dataset(
-        {name: (("case", "cam_angle") if name in result.series else "case", quantity.values, _attributes(quantity))
-         for name, quantity in (*result.summary.items(), *result.series.items(),
-                                *((f"measured_{name}", quantity) for name, quantity in result.measured.items()))
-         if np.ndim(quantity.values) > 0 and len(quantity.values) == result.cases},
+        {prefix + name: (dimensions, quantity.values, _attributes(quantity))
+         for quantities, prefix, dimensions in groups for name, quantity in quantities.items()
+         if np.ndim(quantity.values) == len(dimensions) and len(quantity.values) == result.cases},
         {names[key]: ("case", quantity.values, _attributes(quantity)) for key, quantity in result.sweep.items()},
         {"title": result.title, "deck": result.deck_text, **result.run})
     if result.series:

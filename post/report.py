@@ -28,7 +28,8 @@ from read import ResultError, opened, read_result, text_of  # noqa: E402
 from table import column_of, swept_texts, usual_columns, worst_of_lobes  # noqa: E402
 from units import key_words, unit_words, with_unit  # noqa: E402
 
-SHOWN = ["mean_torque", "mean_slip", "pressure", "film_ratio", "friction_sources", "drive_torque", "slip"]
+SHOWN = ["mean_torque", "mean_slip", "pressure", "film_ratio", "friction_sources", "drive_torque", "slip",
+         "running_in", "train", "dampers", "turns"]  # as far as the file has what they need
 MOST_ROWS = 60
 NUMBER = re.compile(r"\b(?<!lobe )[-+]?\d[\d.]*(?:e[-+]?\d+)?")  # the number of a lobe tells remarks apart
 STYLE = """body { font-family: sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; color: #222; }
@@ -89,6 +90,8 @@ def table_of(result):
     columns += [column_of(worst, name, [[case] for case in cases], '', words, unit) for name, words, unit in usual_columns(result)]
     text = rows_to_html([column[0] for column in columns], list(zip(*(column[1:] for column in columns))))
     text += f"<p>{line}</p>" if line else ""
+    if failed:
+        text += f"<p>{len(failed)} of {result.cases} cases have no result; the reasons are among the remarks.</p>"
     return text + (f"<p>and {result.cases - MOST_ROWS} more cases</p>" if result.cases > MOST_ROWS else "")
 
 
@@ -112,7 +115,7 @@ def remarks_of(result):
 
 
 def figures_of(result):
-    """Figures that the file has the series for, as drawings within the page."""
+    """Figures that the file has the numbers for, as drawings within the page."""
     layout, found = Layout([result]), []
     for name in SHOWN:
         try:

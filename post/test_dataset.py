@@ -46,3 +46,13 @@ def test_what_is_no_result_is_told(tmp_path):
     (tmp_path / "text.h5").write_text("no")
     with pytest.raises(ResultError, match="not an HDF5 file"):
         open_dataset(tmp_path / "text.h5")
+
+
+def test_hours_and_turns_have_a_dimension_of_their_own(tmp_path):
+    path = write_result(tmp_path / "grid.h5")
+    result, cases = read_result(path), open_dataset(path)
+    chosen = cases.sel(speed_rpm=result.value_of("operating_point.speed_rpm", 4), oil_temperature_degC=result.value_of(
+        "operating_point.oil_temperature_degC", 4))
+    for name, values, dimension in (("running_in_roller_film", result.history["roller_film"].values, "running_time_part"),
+                                    ("turns_seating_speed", result.turns["seating_speed"].values, "turn")):
+        assert chosen[name].dims == (dimension,) and np.array_equal(chosen[name].values, values[4], equal_nan=True)

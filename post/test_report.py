@@ -92,3 +92,13 @@ def test_a_browser_shows_every_figure(page):
                              looked.as_uri()], capture_output=True, text=True, timeout=120, check=False)
     figures = page.read_text(encoding="utf-8").count("<figure>")
     assert f"<title>{figures} shown</title>" in result.stdout
+
+
+def test_page_shows_what_is_special_in_the_file_and_counts_missing_rows(tmp_path):
+    source = write_result(tmp_path / "nine.h5")
+    with h5py.File(source, "a") as file:
+        file["summary/status"][2] = 3
+    text = page_of(read_result(source))
+    for name in ("running in", "train", "dampers", "turns"):
+        assert f'<img alt="{name}"' in text
+    assert "1 of 9 cases have no result; the reasons are among the remarks." in text
