@@ -113,8 +113,9 @@ contains
          & "&lubricant temperature_law = 'vogel' temperature_points_degC = 25, 60, 95 viscosity_points_Pa_s = 0.15, 0.0305, "// &
          & "0.01"//n//"   pressure_viscosity_coefficient_per_GPa = 22 /"//n//"&asperity boundary_coefficient = 0.2 /"//n// &
          & "&needle_bearing friction_coefficient = 0.0015 needle_radius_mm = 0.99 /"//n// &
-         & "&cam_bearings diameter_mm = 23 width_mm = 20 radial_clearance_um = 47.5 bearing_positions_mm = 0, 60"//n// &
-         & "   cam_positions_mm = 30 /"//n//"&valve_guide length_mm = 36 stem_diameter_mm = 5 radial_clearance_um = 20 /"//n
+         & "&cam_bearings law = 'long_full_sommerfeld' diameter_mm = 23 width_mm = 20 radial_clearance_um = 47.5"//n// &
+         & "   bearing_positions_mm = 0, 60 cam_positions_mm = 30 /"//n// &
+         & "&valve_guide length_mm = 36 stem_diameter_mm = 5 radial_clearance_um = 20 /"//n
    end function deck_text
 
 end module camroller_selftest

@@ -103,7 +103,6 @@ typedef struct {
    double oil_temperature; /* [K] */
    double gas_pressure;    /* gauge, pressing the valve shut [Pa] */
    int has_pressure;       /* 1: in the place of the case's table, whose group &gas_force gives the valve's area; 0: the table */
-   /* Programs built for a header without the following still work: `size` tells. */
    int has_supply;         /* 1: supply pressure in the place of that of the case, which needs a lash adjuster; 0: that of the case */
    double supply_pressure; /* gauge, of the oil at the lash adjuster, 0 or more [Pa] */
 } camroller_inputs;
@@ -127,7 +126,6 @@ typedef struct {
    double smallest_film;     /* [m]; huge where there is no contact all the step */
    /* of the mean torque that drives: what the case's accuracy leaves, not what inputs differ from straight lines [N m] */
    double estimated_error;
-   /* Programs built for a header without the following still work: `size` tells. */
    /* by all other sources together, as a case has them: oil in the roller's bearing, valve tip, stem seal, ends of the guide, finger's
     * pivot, dampers and leak; one by one at the end of a step by camroller_simulation_value, `torque_tip` and so on [N m] */
    double mean_torque_others, torque_others;
@@ -176,7 +174,6 @@ typedef struct {
    double mean_torques[5], torques[5];
    double extreme_torque[2]; /* smallest and largest torque that drives, at angles a degree apart at most [N m] */
    double estimated_error;   /* of the mean torque that drives, as in camroller_outcome [N m] */
-   /* Programs built for a header without the following still work: `size` tells. */
    /* of all followers, as in camroller_outcome, and the seals and the drive of the camshafts (&shaft_drag) [N m] */
    double mean_torque_others, torque_others;
 } camroller_shaft_outcome;

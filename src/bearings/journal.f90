@@ -42,13 +42,14 @@ module camroller_journal
    !> Width over diameter for which the law of finite width is used [-]
    real(wp), parameter :: finite_range(2) = [0.1_wp, 1.0_wp]
    !> What to say where it is not
-   character(len=*), parameter :: width_advice = "journal bearing law 'finite' covers widths from 0.1 to 1 diameter; "// &
-      & "'short_ocvirk' is for narrower ones, and camshaft bearings of twice that width and more have 'long_full_sommerfeld'"
+   character(len=*), parameter :: width_advice = "journal bearing law 'finite', the default, covers widths from 0.1 to 1 "// &
+      & "diameter; 'short_ocvirk' is for narrower ones, 'long_full_sommerfeld' for camshaft bearings of twice that width "// &
+      & "and more; between them none is near"
 
    !> Camshaft and its bearings
    type :: cam_bearings_t
       !> One of `journal_law_names`
-      character(len=name_length) :: law = "long_full_sommerfeld"
+      character(len=name_length) :: law = "finite"
       !> Diameter of the journals [m]
       real(wp) :: diameter = 0.0_wp
       !> Width of a bearing [m]

@@ -15,7 +15,7 @@ module camroller_c_shaft
    use camroller_torque_list, only : of_bearings
    use camroller_c_case, only : case_handle_t
    use camroller_c_structs, only : clear_place, give_address, give_bytes, listed_torques, other_torque, refuse_size, &
-      & size_of_others, take_inputs
+      & take_inputs
    use camroller_c_texts, only : give_error, refuse_null
    implicit none
    private
@@ -169,7 +169,7 @@ contains
       if (.not. allocated(failure)) call take_inputs(finish, ends(2), failure)
       if (.not. allocated(failure) .and. c_associated(outcome)) then
          call c_f_pointer(outcome, filled)
-         if (all(filled%size /= storage_size(filled)/8 - [0, size_of_others])) call refuse_size("camroller_shaft_outcome", failure)
+         if (filled%size /= storage_size(filled)/8) call refuse_size("camroller_shaft_outcome", failure)
       end if
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
@@ -205,7 +205,6 @@ contains
       given%torques = outcome%torques(listed_torques)
       given%extreme_torque = outcome%extreme_torque
       given%estimated_error = outcome%estimated_error
-      if (given%size < storage_size(given)/8) return
       given%mean_torque_others = other_torque(outcome%mean_torques)
       given%torque_others = other_torque(outcome%torques)
    end subroutine fill_outcome

@@ -14,7 +14,7 @@ module camroller_c_structs
    implicit none
    private
 
-   public :: listed_torques, size_of_others, take_inputs, check_outcome, give_outcome, give_quantity, give_bytes, other_torque, &
+   public :: listed_torques, take_inputs, check_outcome, give_outcome, give_quantity, give_bytes, other_torque, &
       & torque_row, refuse_size, give_address, clear_place
 
    !> Torques in the order of the structs
@@ -26,14 +26,11 @@ module camroller_c_structs
       !> Cam speed [rad/s], oil temperature [K], gauge pressure [Pa]
       real(c_double) :: speed, oil_temperature, gas_pressure
       integer(c_int) :: has_pressure
-      !> Is there a supply pressure? In a struct without one, the padding at the end
+      !> Is there a supply pressure?
       integer(c_int) :: has_supply
       !> Gauge pressure at the lash adjuster [Pa]
       real(c_double) :: supply_pressure
    end type c_inputs_t
-
-   !> Size of the inputs before they had a supply pressure
-   integer, parameter :: size_without_supply = 40
 
    !> What a step gives, as the header has it
    type, bind(C) :: c_outcome_t
@@ -51,9 +48,6 @@ module camroller_c_structs
       !> By all other sources together: mean over the step and at its end [N m]
       real(c_double) :: mean_torque_others, torque_others
    end type c_outcome_t
-
-   !> By how much structs were smaller before they had the torques of all other sources
-   integer, parameter :: size_of_others = 16
 
 contains
 
@@ -119,7 +113,7 @@ contains
       type(c_inputs_t), pointer :: given
 
       call c_f_pointer(address, given)
-      if (given%size /= storage_size(given)/8 .and. given%size /= size_without_supply) then
+      if (given%size /= storage_size(given)/8) then
          call refuse_size("camroller_inputs", error)
          return
       end if
@@ -127,7 +121,6 @@ contains
       inputs%oil_temperature = given%oil_temperature
       inputs%has_pressure = given%has_pressure /= 0
       inputs%gas_pressure = given%gas_pressure
-      if (given%size == size_without_supply) return
       inputs%has_supply = given%has_supply /= 0
       inputs%supply_pressure = given%supply_pressure
    end subroutine take_inputs
@@ -143,7 +136,7 @@ contains
 
       if (.not. c_associated(address)) return
       call c_f_pointer(address, given)
-      if (all(given%size /= storage_size(given)/8 - [0, size_of_others])) call refuse_size("camroller_outcome", error)
+      if (given%size /= storage_size(given)/8) call refuse_size("camroller_outcome", error)
    end subroutine check_outcome
 
    !> Refuse a struct of another version.
@@ -180,7 +173,6 @@ contains
       given%largest_pressure = outcome%extremes%hertz_pressure
       given%smallest_film = outcome%extremes%film_min
       given%estimated_error = outcome%estimated_error
-      if (given%size < storage_size(given)/8) return
       given%mean_torque_others = other_torque(outcome%mean_torques)
       given%torque_others = other_torque(outcome%torques)
    end subroutine give_outcome

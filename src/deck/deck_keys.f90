@@ -203,8 +203,8 @@ contains
       call add_number(schema, "finger_inertia_kg_m2", positive, &
          & "moment of inertia of the finger about its pivot", is_optional=.true.)
       call add_number(schema, "finger_centre_mm", positive, &
-         & "distance from the pivot to the finger's centre of mass, on the roller arm; where not given 20, or the radius of "// &
-         & "gyration if that is less", is_optional=.true.)
+         & "distance from the pivot to the finger's centre of mass, on the roller arm; where not given 20, an "// &
+         & "assumption, or the radius of gyration if that is less; acts on the force in the pivot", is_optional=.true.)
       call add_group(schema, "spring", group_required, "valve spring, seat and lash adjuster")
       call add_number(schema, "stiffness_N_m", positive, "stiffness of the valve spring", example="25000")
       call add_number(schema, "precompression_mm", not_negative, "compression of the spring with the valve closed", &

@@ -353,19 +353,17 @@ contains
       call write_block(dataset, h5t_native_double, corner, extents, c_loc(plane), error)
    end subroutine write_plane_of_numbers
 
-   !> Write a run of integers.
-   subroutine write_integers(dataset, first, numbers, error)
+   !> Write the integers of a dataset.
+   subroutine write_integers(dataset, numbers, error)
       !> A dataset with one axis
       type(hdf5_object_t), intent(in) :: dataset
-      !> Position of the first number, from 0
-      integer, intent(in) :: first
       !> The numbers
       integer, intent(in), target, contiguous :: numbers(:)
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
       if (size(numbers) == 0) return
-      call write_block(dataset, h5t_native_integer, [first], shape(numbers), c_loc(numbers), error)
+      call write_block(dataset, h5t_native_integer, [0], shape(numbers), c_loc(numbers), error)
    end subroutine write_integers
 
    !> Write one text.

@@ -13,12 +13,6 @@ module camroller_spline
    private
 
    public :: spline_t, new_clamped_spline, new_periodic_spline, evaluate_spline, sharp_points
-   public :: spline_inside, spline_outside
-
-   !> The point lies in the table
-   integer, parameter :: spline_inside = 0
-   !> The point lies outside the table: no value
-   integer, parameter :: spline_outside = 1
 
    !> Fewest points of a periodic table: each function must differ from its own copy a period later
    integer, parameter :: min_periodic_points = 7
@@ -95,26 +89,22 @@ contains
       call fit_spline(spline, points, fit, smoothing, error)
    end subroutine new_periodic_spline
 
-   !> Value and three derivatives; zero with status `spline_outside` where the table says nothing.
-   pure subroutine evaluate_spline(spline, x, values, status)
+   !> Value and three derivatives; zero outside the table, which says nothing there.
+   pure subroutine evaluate_spline(spline, x, values)
       !> The function
       type(spline_t), intent(in) :: spline
       !> Point [x]
       real(wp), intent(in) :: x
       !> Value and derivatives [y, y/x, y/x^2, y/x^3]
       real(wp), intent(out) :: values(0:3)
-      !> `spline_inside` or `spline_outside`
-      integer, intent(out) :: status
 
       integer :: n, piece
       !> Distance from the left end of the piece [x]
       real(wp) :: t
 
       values = 0.0_wp
-      status = spline_outside
       n = size(spline%points)
       if (.not. (x >= spline%points(1) .and. x <= spline%points(n))) return
-      status = spline_inside
       if (spline%pieces_per_length > 0.0_wp) then
          piece = min(1 + int((x - spline%points(1))*spline%pieces_per_length), n - 1)
       else

@@ -111,7 +111,7 @@ contains
       if (.not. allocated(error)) call create_integers(lobe%group, "node", [file%node_count], lobe%nodes, error)
       if (.not. allocated(error)) call describe(lobe%nodes, "1", "node across the contact", "ehl", error)
       if (.not. allocated(error)) call make_scale(lobe%nodes, error)
-      if (.not. allocated(error)) call write_integers(lobe%nodes, 0, [(i, i=0, file%node_count - 1)], error)
+      if (.not. allocated(error)) call write_integers(lobe%nodes, [(i, i=0, file%node_count - 1)], error)
       allocate (lobe%series(size(file%quantities)))
       do i = 1, size(file%quantities)
          if (allocated(error)) return

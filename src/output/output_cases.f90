@@ -199,7 +199,7 @@ contains
       if (.not. allocated(error)) call describe(dataset, "1", &
          & "0 where the case has a result, -1 where it was not computed, else the kind of its error", "output", error)
       if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
-      if (.not. allocated(error)) call write_integers(dataset, 0, writer%status, error)
+      if (.not. allocated(error)) call write_integers(dataset, writer%status, error)
       call close_object(dataset)
    end subroutine write_status
 

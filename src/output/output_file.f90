@@ -198,7 +198,7 @@ contains
       if (.not. allocated(error)) call put_attribute(writer%case_axis, "units", "1", error)
       if (.not. allocated(error)) call put_attribute(writer%case_axis, "long_name", "case of the sweep", error)
       if (.not. allocated(error)) call make_scale(writer%case_axis, error)
-      if (.not. allocated(error)) call write_integers(writer%case_axis, 0, [(i, i=0, size(writer%status) - 1)], error)
+      if (.not. allocated(error)) call write_integers(writer%case_axis, [(i, i=0, size(writer%status) - 1)], error)
       if (.not. allocated(error)) call create_group(writer%file, "series", writer%series_group, error)
       if (.not. allocated(error)) call create_group(writer%file, "summary", writer%summary_group, error)
       if (.not. allocated(error)) call create_group(writer%file, "sweep", writer%sweep, error)

@@ -63,7 +63,7 @@ contains
       if (.not. allocated(error)) call create_integers(group, "row", [table%rows], axis, error)
       if (.not. allocated(error)) call describe(axis, "1", "row of the table", "study", error)
       if (.not. allocated(error)) call make_scale(axis, error)
-      if (.not. allocated(error)) call write_integers(axis, 0, [(i, i=0, table%rows - 1)], error)
+      if (.not. allocated(error)) call write_integers(axis, [(i, i=0, table%rows - 1)], error)
       if (.not. allocated(error)) call write_words(group, axis, table, error)
       if (.not. allocated(error)) call write_columns(group, axis, table, error)
       call close_object(axis)

@@ -93,13 +93,12 @@ contains
 
       ! Pressure and its derivatives [Pa/rad^n]
       real(wp) :: values(0:3)
-      integer :: status
 
       if (law%is_given) then
          force = (law%given_pressure + law%given_slope*(angle - law%given_angle))*law%valve_area
          return
       end if
-      call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values, status)
+      call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values)
       force = values(0)*law%valve_area
    end function gas_force
 
@@ -114,11 +113,10 @@ contains
 
       ! Pressure and its derivatives [Pa/rad^n]
       real(wp) :: values(0:3)
-      integer :: status
 
       slope = law%given_slope*law%valve_area
       if (law%is_given) return
-      call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values, status)
+      call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values)
       slope = values(1)*law%valve_area
    end function gas_force_slope
 

@@ -137,7 +137,6 @@ contains
       real(wp) :: y_1
       !> Lift over maximum lift and its derivatives with respect to y [-]
       real(wp) :: f(0:3)
-      integer :: status
 
       values = 0.0_wp
       local = angle
@@ -146,7 +145,7 @@ contains
       end if
       if (local >= law%last .and. law%last < law%first + two_pi) return
       if (law%law == law_table) then
-         call evaluate_spline(law%table, min(max(local, law%first), law%last), values, status)
+         call evaluate_spline(law%table, min(max(local, law%first), law%last), values)
          return
       else if (law%law == law_segments) then
          call evaluate_segments(law%segments, local, values)

@@ -343,9 +343,13 @@ contains
       call expect_mistake(error, "", shaft//"bearing_positions_mm = 0 60 cam_positions_mm = 20 cam_lobes = 2 /", &
          & "11:133: a cam of lobe 2 needs the group &second_lift")
       call expect_mistake(error, "", "&cam_bearings law = 'finite' diameter_mm = 23 width_mm = 23.1 radial_clearance_um = 50 "// &
-         & "bearing_positions_mm = 0 60 cam_positions_mm = 20 /", "11:58: journal bearing law 'finite' covers widths from 0.1 to 1")
+         & "bearing_positions_mm = 0 60 cam_positions_mm = 20 /", &
+         & "11:58: journal bearing law 'finite', the default, covers widths from 0.1 to 1")
       call expect_mistake(error, "", "&cam_bearings law = 'finite' diameter_mm = 23 width_mm = 2.2 radial_clearance_um = 50 "// &
-         & "bearing_positions_mm = 0 60 cam_positions_mm = 20 /", "11:58: journal bearing law 'finite' covers widths from 0.1 to 1")
+         & "bearing_positions_mm = 0 60 cam_positions_mm = 20 /", &
+         & "11:58: journal bearing law 'finite', the default, covers widths from 0.1 to 1")
+      call expect_mistake(error, "", "&cam_bearings diameter_mm = 23 width_mm = 23.1 radial_clearance_um = 50 "// &
+         & "bearing_positions_mm = 0 60 cam_positions_mm = 20 /", "11:43: journal bearing law 'finite', the default, covers")
       call expect_valid(error, "", "&cam_bearings law = 'finite' diameter_mm = 23 width_mm = 23 radial_clearance_um = 50 "// &
          & "bearing_positions_mm = 0 60 cam_positions_mm = 20 /")
       call expect_valid(error, "", "&cam_bearings law = 'short_ocvirk' diameter_mm = 23 width_mm = 2 radial_clearance_um = 50 "// &

@@ -95,7 +95,7 @@ contains
       call create_numbers(file, "one", [integer ::], [integer ::], 0, dataset, raised)
       call write_numbers(dataset, rows(1, 1), raised)
       call create_integers(file, "integers", [2], dataset, raised)
-      call write_integers(dataset, 0, [huge(1), -3], raised)
+      call write_integers(dataset, [huge(1), -3], raised)
       call close_file(file, raised)
       call check(error, .not. allocated(raised), "cannot write")
       if (allocated(error)) return

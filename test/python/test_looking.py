@@ -106,6 +106,13 @@ def test_check_says_where_a_bearing_law_is_outside_its_range(camroller):
     assert "width over diameter 0.708, law 'finite'\n" in text
 
 
+def test_the_law_of_a_deck_that_names_none_is_for_usual_bearings(camroller, tmp_path):
+    deck = tmp_path / "deck.nml"
+    deck.write_text((ROOT / "decks/thesis.nml").read_text().replace("   law = 'long_full_sommerfeld'\n", ""))
+    text = done(camroller, "check", deck, "--no-sweep").stdout
+    assert "width over diameter 0.87, law 'finite'\n" in text and "wider than 2 diameters" not in text
+
+
 def test_smallest_cam_radius_is_that_of_the_series(camroller, tmp_path):
     text = done(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
     told = float(re.search(r"smallest cam radius ([\d.]+) mm", text)[1])

@@ -50,6 +50,26 @@ def film_force(e, direction, width_ratio, around=240, across=14):
     return np.array([(mean * np.cos(theta)).sum(), (mean * np.sin(theta)).sum()]) * step
 
 
+# Widths over diameter and eccentricities of `steady_load`
+STEADY = [(width_ratio, e) for width_ratio in (0.25, 0.5, 0.75, 0.87, 1.0) for e in (0.3, 0.6, 0.9)]
+
+
+def steady_load(e, width_ratio, around=240, across=14):
+    """Load number and attitude angle [rad] of a bearing under a steady load: seen from half the shaft's speed it is squeezed across."""
+    force = 0.5 * e * film_force(e, -math.pi / 2, width_ratio, around, across)
+    return math.hypot(*force), abs(math.atan2(force[1], force[0]))
+
+
+def write_steady(path):
+    with open(path, 'w', encoding='ascii') as file:
+        file.write("# Journal bearings of finite width under a steady load: Reynolds' equation by finite differences, no negative pressure\n"
+                   '# (test/reference/journal_reference.py, 480 x 24 over half the width; a grid half as fine differs by up to 0.2 %).\n'
+                   'length_over_diameter,eccentricity,load_number,attitude_deg\n')
+        for width_ratio, e in STEADY:
+            load, attitude = steady_load(e, width_ratio, 480, 24)
+            file.write(f'{width_ratio},{e},{load:.6f},{math.degrees(attitude):.3f}\n')
+
+
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(40)
 
 

@@ -77,6 +77,7 @@ if __name__ == '__main__':
     for task in (lambda: kinematics_reference.write(DATA / 'kinematics_reference.csv'),
                  lambda: joint_reference.write(DATA / 'joint_reference.csv'),
                  lambda: bearing_reference.write(DATA / 'bearing_reference.csv'),
+                 lambda: journal_reference.write_steady(DATA / 'finite_bearing.csv'),
                  lambda: journal_reference.write(DATA / 'journal_orbit_reference.csv'),
                  lambda: heat_reference.write(DATA / 'heat_reference.csv'),
                  lambda: film_heat_reference.write(DATA / 'film_heat_reference.csv'),

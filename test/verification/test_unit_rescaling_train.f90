@@ -99,7 +99,7 @@ contains
       type(error_t), allocatable :: failure
       type(spline_t) :: spline, spline_in_units
       real(wp) :: x(41), y(41), f(0:3), g(0:3), smoothing
-      integer :: i, k, kind_of_fit, status
+      integer :: i, k, kind_of_fit
       type(units_t) :: u
 
       x = [(0.05_wp*real(k, wp), k=-20, 20)]
@@ -115,8 +115,8 @@ contains
                & [scaled(u, 3.0_wp, force), scaled(u, 4.0_wp, force)]/scaled(u, 1.0_wp, length)**[1, 2], &
                & scaled(u, smoothing, force), failure)
             do k = -9, 9
-               call evaluate_spline(spline, 0.11_wp*real(k, wp), f, status)
-               call evaluate_spline(spline_in_units, scaled(u, 0.11_wp*real(k, wp), length), g, status)
+               call evaluate_spline(spline, 0.11_wp*real(k, wp), f)
+               call evaluate_spline(spline_in_units, scaled(u, 0.11_wp*real(k, wp), length), g)
                call compare(error, "spline", u, force, f, g*scaled(u, 1.0_wp, length)**[0, 1, 2, 3])
                if (allocated(error)) return
             end do
