@@ -29,9 +29,9 @@ module camroller_ehl_reynolds
       real(wp), allocatable :: asperity_slope(:)
       !> Room for the oil over b^2/R, the film or the mean gap of rough surfaces, and its derivative with respect to the film [-]
       real(wp), allocatable :: gap(:), gap_slope(:)
-      !> Density and viscosity ratios; the latter as its logarithm [-]
-      real(wp), allocatable :: density(:), log_viscosity(:)
-      !> Slopes of density and ln(viscosity) with the film's pressure, and of ln(viscosity) with the film [-]
+      !> Density ratio; logarithms of the viscosity ratios of shear and of the flow that pressure drives [-]
+      real(wp), allocatable :: density(:), log_viscosity(:), log_flow_viscosity(:)
+      !> Slopes of density and ln(viscosity of the flow) with the film's pressure, and of the latter with the film [-]
       real(wp), allocatable :: density_slope(:), viscosity_slope(:), thinning_slope(:)
       !> Mass flow between neighbours, and the part of it that the drop of pressure drives [-]
       real(wp), allocatable :: flow(:), driven(:)
@@ -39,7 +39,8 @@ module camroller_ehl_reynolds
       real(wp), allocatable :: by_pressure(:, :), by_film(:, :)
       !> Excess of what leaves a cell over what enters it, of inner nodes [-]
       real(wp), allocatable :: excess(:)
-      !> Mean rise of the film's temperature across it [K], derivative of ln(viscosity) over it [1/K]; not allocated: no heat
+      !> Mean rise of the film's temperature across it [K], derivative of ln(viscosity of shear) over it [1/K]; not allocated: no
+      !> heat
       real(wp), allocatable :: rise(:), by_rise(:)
       !> Heat flux of the film into both surfaces: sum, then difference [W/m^2]; rise of both surfaces [K]; over node, then surface
       real(wp), allocatable :: flux(:, :), surface_rise(:, :)
@@ -68,9 +69,10 @@ contains
       integer, intent(in) :: nodes
 
       allocate (fields%film(nodes), fields%pressure(nodes), fields%asperity(nodes), fields%asperity_slope(nodes), &
-         & fields%density(nodes), fields%log_viscosity(nodes), fields%density_slope(nodes), fields%viscosity_slope(nodes), &
-         & fields%thinning_slope(nodes), fields%flow(nodes - 1), fields%driven(nodes - 1), fields%by_pressure(3, nodes - 1), &
-         & fields%by_film(3, nodes - 1), fields%excess(nodes), fields%gap(nodes), fields%gap_slope(nodes), source=0.0_wp)
+         & fields%density(nodes), fields%log_viscosity(nodes), fields%log_flow_viscosity(nodes), fields%density_slope(nodes), &
+         & fields%viscosity_slope(nodes), fields%thinning_slope(nodes), fields%flow(nodes - 1), fields%driven(nodes - 1), &
+         & fields%by_pressure(3, nodes - 1), fields%by_film(3, nodes - 1), fields%excess(nodes), fields%gap(nodes), &
+         & fields%gap_slope(nodes), source=0.0_wp)
    end subroutine new_ehl_fields
 
    !> Film, share of the asperities, and the state of the oil.
@@ -101,8 +103,8 @@ contains
       !> In: film; out: state of the oil
       type(ehl_fields_t), intent(inout) :: fields
 
-      ! Derivative of ln(viscosity) over that without thinning [-]
-      real(wp) :: part
+      ! Derivatives of ln(viscosity) of shear and of the flow over that without thinning [-]
+      real(wp) :: part, flow_part
       logical :: is_hot
       integer :: i
 
@@ -119,8 +121,9 @@ contains
          else
             call log_viscosity(problem, fields%pressure(i), fields%log_viscosity(i), fields%viscosity_slope(i))
          end if
-         call thin_by_sliding(problem, fields%film(i), fields%log_viscosity(i), part, fields%thinning_slope(i))
-         fields%viscosity_slope(i) = fields%viscosity_slope(i)*part
+         call thin_by_sliding(problem, fields%film(i), fields%log_viscosity(i), fields%log_flow_viscosity(i), part, flow_part)
+         fields%viscosity_slope(i) = fields%viscosity_slope(i)*flow_part
+         fields%thinning_slope(i) = (1.0_wp - flow_part)/max(fields%film(i), smallest_film)
          if (is_hot) fields%by_rise(i) = fields%by_rise(i)*part
       end do
    end subroutine evaluate_oil
@@ -143,37 +146,46 @@ contains
       slope = slope*part
    end subroutine expand
 
-   !> Logarithm of the viscosity ratio that acts on the flow: thinned by sliding as Eyring's law has it.
+   !> Logarithms of the viscosity ratios that act on shear and on the flow: thinned by sliding as Eyring's law has it.
    !>
-   !> `eta' = tau_E/(V_s/h) asinh(eta V_s/(h tau_E))`: Eyring (1936) with the shear rate of sliding alone.
-   pure subroutine thin_by_sliding(problem, film, value, part, film_slope)
+   !> Shear has the stress over the rate (secant), `eta_s = tau_E/(V_s/h) asinh(eta V_s/(h tau_E))`. In a line contact pressure
+   !> drives the oil along the sliding, so that its flow has the slope of the stress over the rate (tangent), `eta_t = eta/sqrt(1 +
+   !> (eta V_s/(h tau_E))^2)`: Conry, Wang and Cusano, J. Tribology 109 (1987) 648, where the stress that the drop of pressure makes
+   !> across the film is small beside tau_E.
+   pure subroutine thin_by_sliding(problem, film, shear_value, flow_value, shear_part, flow_part)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> Film over its scale [-]
       real(wp), intent(in) :: film
-      !> ln(viscosity ratio): in without, out with thinning [-]
-      real(wp), intent(inout) :: value
-      !> Derivative of the one over the other, and over the film [-]
-      real(wp), intent(out) :: part, film_slope
+      !> ln(viscosity ratio): in without, out with thinning of shear [-]
+      real(wp), intent(inout) :: shear_value
+      !> The same with thinning of the flow [-]
+      real(wp), intent(out) :: flow_value
+      !> Derivatives of both over that without thinning [-]
+      real(wp), intent(out) :: shear_part, flow_part
 
       ! ln of the stress over tau_E without thinning; the stress itself; its thinned value [-]
       real(wp) :: log_stress, stress, thinned
 
-      part = 1.0_wp
-      film_slope = 0.0_wp
+      shear_part = 1.0_wp
+      flow_part = 1.0_wp
+      flow_value = shear_value
       if (problem%shear <= 0.0_wp .or. film <= 0.0_wp) return
-      log_stress = value + log(problem%shear/film)
+      log_stress = shear_value + log(problem%shear/film)
       if (log_stress < -8.0_wp) return
       if (log_stress > 300.0_wp) then
          thinned = log_stress + log(2.0_wp)
-         part = 1.0_wp/thinned
+         shear_part = 1.0_wp/thinned
+         flow_part = 0.0_wp
+         flow_value = shear_value - log_stress
       else
          stress = exp(log_stress)
          thinned = asinh(stress)
-         part = stress/hypot(1.0_wp, stress)/thinned
+         shear_part = stress/hypot(1.0_wp, stress)/thinned
+         flow_part = 1.0_wp/hypot(1.0_wp, stress)**2
+         flow_value = shear_value - log(hypot(1.0_wp, stress))
       end if
-      value = log(thinned*film/problem%shear)
-      film_slope = (1.0_wp - part)/film
+      shear_value = log(thinned*film/problem%shear)
    end subroutine thin_by_sliding
 
    !> Flow between the nodes, its derivatives, and what is out of balance.
@@ -200,7 +212,7 @@ contains
       do i = 1, grid%size - 1
          moved = 0.0_wp
          if (present(storage)) moved = 0.5_wp*(grid%x(i) + grid%x(i + 1))*storage%growth/storage%duration
-         call mean_fluidity(fields%log_viscosity(i), fields%log_viscosity(i + 1), fluidity, fluidity_slopes)
+         call mean_fluidity(fields%log_flow_viscosity(i), fields%log_flow_viscosity(i + 1), fluidity, fluidity_slopes)
          call mean_resistance(problem, grid%face(:, i), fields, i, resistance, drag, resistance_slopes, drag_slopes)
          drop = fields%pressure(i + 1) - fields%pressure(i)
          driven = fluidity*drop/(problem%speed*grid%step(i))

@@ -4,7 +4,7 @@ module test_ehl_reynolds
    use camroller_kinds, only : wp
    use camroller_ehl_grid, only : ehl_grid_t, new_ehl_grid
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem
-   use camroller_ehl_reynolds, only : ehl_fields_t, evaluate_film, evaluate_flow, new_ehl_fields, storage_t
+   use camroller_ehl_reynolds, only : ehl_fields_t, evaluate_film, evaluate_flow, evaluate_oil, new_ehl_fields, storage_t
    use camroller_lubricant, only : law_barus, law_roelands
    use closeness, only : check_scaled
    use ehl_contacts, only : contact_of_groups
@@ -20,6 +20,7 @@ contains
 
       testsuite = [ &
          new_unittest("derivatives of the flow agree with difference quotients", test_slopes), &
+         new_unittest("flow and shear of a thinned film follow from Eyring's law across it", test_eyring), &
          new_unittest("a uniform film stays uniform while the nodes move apart", test_uniform) &
          ]
    end subroutine collect_ehl_reynolds
@@ -82,6 +83,60 @@ contains
          end do
       end do
    end subroutine test_slopes
+
+   !> Pressure drives oil through a film of one thickness that is sheared along the flow: Eyring's law integrated across the film.
+   subroutine test_eyring(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_contact_t) :: contact
+      type(ehl_problem_t) :: problem
+      type(ehl_grid_t) :: grid
+      type(ehl_fields_t) :: plain, thinned
+      integer, parameter :: nodes = 33, pieces = 2000, middle = 16
+      ! Film over its scale, change of the stress across the film over the Eyring stress [-]
+      real(wp), parameter :: gap = 0.4_wp, change = 1.0e-3_wp
+      ! Pressure [-]; sliding over the film times viscosity over the Eyring stress, mean stress over it, place in the film [-]
+      real(wp) :: total(nodes), stress, mean, place, flow
+      integer :: i, k, status
+
+      call new_ehl_grid(grid, nodes, 4.0_wp, 2.0_wp, 0.1_wp)
+      ! So small a drop of pressure that viscosity and density are those at ambient pressure
+      total = [(1.0e-9_wp*i, i=1, nodes)]
+      contact = contact_of_groups(3.0e-5_wp, 1.0e-11_wp, 4500.0_wp, law=law_barus)
+      call new_ehl_problem(problem, contact, status)
+      call flow_at(problem, plain)
+      contact%eyring_stress = 5.0e6_wp
+      do k = -1, 2
+         stress = 10.0_wp**k
+         contact%sliding_speed = stress*contact%eyring_stress*gap*problem%film_scale/contact%oil%viscosity
+         call new_ehl_problem(problem, contact, status)
+         call flow_at(problem, thinned)
+         mean = asinh(stress*0.5_wp*change/sinh(0.5_wp*change))
+         flow = 0.0_wp
+         do i = 1, pieces
+            place = (i - 0.5_wp)/pieces - 0.5_wp
+            flow = flow + 12.0_wp/change*place*sinh(mean + change*place)/pieces
+         end do
+         ! The midpoint rule leaves 1/pieces^2, the change of stress its own square
+         call check_scaled(error, thinned%driven(middle)/plain%driven(middle), flow, flow, 1.0e-6_wp, "flow")
+         if (allocated(error)) return
+         call check_scaled(error, exp(thinned%log_viscosity(middle) - plain%log_viscosity(middle)), mean/stress, 1.0_wp, &
+            & 1.0e-6_wp, "shear")
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> Flow of the uniform film
+      subroutine flow_at(problem, fields)
+         type(ehl_problem_t), intent(in) :: problem
+         type(ehl_fields_t), intent(out) :: fields
+
+         call new_ehl_fields(fields, nodes)
+         fields%film = gap
+         call evaluate_oil(problem, grid, total, fields)
+         call evaluate_flow(problem, grid, fields)
+      end subroutine flow_at
+   end subroutine test_eyring
 
    !> Nodes move with the half width. Oil that is the same everywhere then flows between them and is stored in them in equal parts.
    subroutine test_uniform(error)
