@@ -122,6 +122,7 @@ contains
       if (.not. allocated(error)) call start_limits(search, case, config%seating_speed, config%highest_speed/per_minute, &
          & min(config%speed_step, config%highest_speed)/per_minute, error)
       if (allocated(error)) return
+      if (.not. config%is_quiet) call tell_deck_remarks(deck)
       if (.not. (config%is_quiet .or. search%is_flexible)) call tell_unused_options(config)
       call start_console(progress, config%is_quiet)
       do while (search%is_open)

@@ -3,7 +3,8 @@
 !> In: model, tolerance. Out: `flexible_cycle_t` with the last cycle, from full lift of one turn less half a turn on. Plain cycles
 !> approach the periodic state by the slowest decay of spring and adjuster, or drift towards it; Anderson's acceleration
 !> extrapolates from the last few, but for turns that alternate: there a period of two may be near. An adjuster that leaks down is
-!> moved on by many turns at once. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
+!> moved on by many turns at once; one that climbs is never put back, and none beyond its upper stop. Where a turn fails after a
+!> move, the search goes back to the end of the turn before. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
 module camroller_flexible_cycle
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -13,36 +14,27 @@ module camroller_flexible_cycle
    use camroller_flexible_setup, only : rest_t, find_rest, seat_sink
    use camroller_flexible_train, only : resolution_t, state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
    use camroller_flexible_problem, only : largest_sliding_scale
+   use camroller_flexible_moves, only : climbs, go_back, is_possible, jump_leak, least_kept, may_stand, moves_t, note_change, &
+      & put_on_stop
    use camroller_flexible_turn, only : turn_t, set_sliding_tolerance, integrate_turn
    use camroller_lapack, only : dgesv, dgetrf
    implicit none
    private
 
-   public :: flexible_cycle_t, history_t, find_periodic, find_period, extrapolate, is_alternating, is_possible, &
-      & rest_of_train
+   public :: flexible_cycle_t, history_t, find_periodic, find_period, extrapolate, is_alternating, rest_of_train
 
    !> Most cycles that make a period together
    integer, parameter, public :: longest_period = 8
    !> Cycles that acceleration mixes
    integer, parameter :: depth = 5
-   !> Contraction above which acceleration pays, and number of turns that it needs: with fewer, trains whose check valve opens late
-   !> in a turn take up to twice as many turns [-]
+   !> Contraction above which acceleration pays [-]
    real(wp), parameter :: slow = 0.1_wp
-   integer, parameter :: least_kept = 3
    !> Part of a disturbance that comes back with the other sign above which turns alternate [-]
    real(wp), parameter :: alternating = 0.9_wp
    !> Turns before the last one that tell whether turns alternate
    integer, parameter :: compared_turns = 3
    !> Smallest size of the sliding speed to which its error is relative [m/s]
    real(wp), parameter, public :: least_sliding_scale = 1.0e-4_wp
-
-   !> Turns in which a plunger has to fall before it is moved on
-   integer, parameter :: leaking_turns = 8
-   !> Its mean fall over their root mean square: trains without a period seldom have as much by chance [-]
-   real(wp), parameter :: steady_fall = 0.7_wp
-   !> Turns by which it is moved on, the next time by twice as many; where that is too many the check valve fills the adjuster
-   !> within a turn [-]
-   real(wp), parameter :: jumped_turns = 32.0_wp
 
    !> Turns from which the periodic state is extrapolated
    type :: history_t
@@ -53,16 +45,6 @@ module camroller_flexible_cycle
       !> How many there are
       integer :: kept = 0
    end type history_t
-
-   !> The last turns of an adjuster that may be leaking down
-   type :: leak_t
-      !> How many there are
-      integer :: turns = 0
-      !> By how many of them the plunger would be moved on [-]
-      real(wp) :: jump = jumped_turns
-      !> Their ends less their starts in units of the scales, shape (component, turn), the newest first [-]
-      real(wp), allocatable :: changes(:, :)
-   end type leak_t
 
    !> The periodic state, or what was found in its stead
    type :: flexible_cycle_t
@@ -133,9 +115,9 @@ contains
       real(wp) :: ends(size(state), 0:2*longest_period), distance, last_distance
       ! Start of a turn, its end less its start, where the periodic state should be, in units of the scales [-]
       real(wp), dimension(size(state)) :: start, residual, aim
-      type(leak_t) :: leak
+      type(moves_t) :: moves
       integer :: turns, plain
-      logical :: is_scaled, alternates, has_jumped
+      logical :: is_scaled, alternates, has_moved
 
       plain = 1
       last_distance = huge(1.0_wp)
@@ -145,8 +127,15 @@ contains
          start = state
          cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
          call integrate_turn(turn, state, cycle%trajectory, cycle%counters, error)
-         if (allocated(error)) return
          cycle%cycles = cycle%cycles + 1
+         if (allocated(error)) then
+            if (.not. allocated(moves%before)) return
+            deallocate (error)
+            call go_back(moves, state)
+            cycle%history%kept = 0
+            plain = 0
+            cycle
+         end if
          call scale_sliding(turn, cycle%trajectory, is_scaled)
          residual = (state - start)/turn%scales
          start = start/turn%scales
@@ -167,24 +156,58 @@ contains
          plain = plain + 1
          if (distance >= 10.0_wp*closure) call find_period(ends, min(longest_period, (plain - 1)/2), closure, cycle)
          if (cycle%period > 0) return
-         if (cycle%counters%accepted + cycle%counters%rejected > turn%most_search) exit
-         call jump_leak(leak, turn, residual, state, has_jumped)
-         if (has_jumped) then
-            cycle%history%kept = 0
-            plain = 0
-         else if (distance > slow*last_distance .and. cycle%history%kept >= least_kept .and. .not. alternates) then
-            call put_on_stop(turn, aim)
-            if (is_possible(turn, aim)) then
-               state = aim*turn%scales
-               plain = 0
-            else
-               cycle%history%kept = 1
-            end if
-         end if
+         ! What follows the search begins where a turn ended
+         if (cycle%counters%accepted + cycle%counters%rejected > turn%most_search .or. turns == max_cycles) exit
+         call move_on(moves, cycle%history, turn, residual, aim, distance > slow*last_distance .and. .not. alternates, &
+            & state, has_moved)
+         if (has_moved) plain = 0
          last_distance = distance
       end do
       cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
    end subroutine find_periodic
+
+   !> Move a train on from the end of a turn: where its adjuster leaks down, or to where the last turns say that the periodic state
+   !> is.
+   subroutine move_on(moves, history, turn, residual, aim, is_slow, state, has_moved)
+      !> The turns before; out: with this one
+      type(moves_t), intent(inout) :: moves
+      !> The turns that extrapolation is made from
+      type(history_t), intent(inout) :: history
+      !> What integrates
+      type(turn_t), intent(in) :: turn
+      !> End less start of this turn, in units of the scales [-]
+      real(wp), intent(in) :: residual(:)
+      !> What is extrapolated; changed where that is beyond a stop [-]
+      real(wp), intent(inout) :: aim(:)
+      !> Is it worth a move?
+      logical, intent(in) :: is_slow
+      !> In: end of the turn; out: start of the next [state]
+      real(wp), intent(inout) :: state(:)
+      !> Is it another one?
+      logical, intent(out) :: has_moved
+
+      ! End of the turn [state]
+      real(wp) :: ending(size(state))
+
+      ending = state
+      call note_change(moves, turn, residual)
+      moves%waiting = moves%waiting - 1
+      has_moved = .false.
+      if (moves%waiting > 0) return
+      call jump_leak(moves, turn, state, has_moved)
+      if (has_moved) then
+         history%kept = 0
+      else if (is_slow .and. history%kept >= least_kept) then
+         call put_on_stop(turn, aim)
+         has_moved = is_possible(turn, aim) .and. may_stand(turn, ending, aim, climbs(moves))
+         if (has_moved) then
+            state = aim*turn%scales
+         else
+            history%kept = 1
+         end if
+      end if
+      if (has_moved) moves%before = ending
+   end subroutine move_on
 
    !> Do the last turns make a period of several? The difference from one period to the next, over that between the two before, is
    !> the part of a disturbance that a period leaves: what seems to repeat itself may approach a period slowly, or leave one. Where
@@ -240,42 +263,6 @@ contains
       call set_sliding_tolerance(turn, turn%options%tolerance(at_sliding)*scale/present)
       turn%scales(at_sliding) = scale
    end subroutine scale_sliding
-
-   !> Move a train on by many turns where its adjuster leaks down by nearly as much each turn; vibration is left out by the mean.
-   subroutine jump_leak(leak, turn, residual, state, has_jumped)
-      !> The turns before; out: with this one, or none where it has jumped
-      type(leak_t), intent(inout) :: leak
-      !> What integrates
-      type(turn_t), intent(in) :: turn
-      !> End less start of this turn, in units of the scales [-]
-      real(wp), intent(in) :: residual(:)
-      !> In: end of the turn; out: start of the next [state]
-      real(wp), intent(inout) :: state(:)
-      !> Is it another one?
-      logical, intent(out) :: has_jumped
-
-      ! The state after the leak, mean change of a turn, in units of the scales [-]
-      real(wp), dimension(size(state)) :: aim, change
-
-      has_jumped = .false.
-      associate (flexible => turn%problem%model%flexible)
-         if (.not. allocated(flexible%adjuster)) return
-         if (.not. allocated(leak%changes)) allocate (leak%changes(size(state), leaking_turns), source=0.0_wp)
-         leak%changes(:, 2:) = leak%changes(:, :leaking_turns - 1)
-         leak%changes(:, 1) = residual
-         leak%turns = leak%turns + 1
-         if (leak%turns < leaking_turns) return
-         change = sum(leak%changes, 2)/leaking_turns
-         if (change(at_plunger) > -steady_fall*norm2(leak%changes(at_plunger, :))/sqrt(real(leaking_turns, wp))) return
-      end associate
-      aim = state/turn%scales + leak%jump*change
-      call put_on_stop(turn, aim)
-      leak%turns = 0
-      if (.not. is_possible(turn, aim)) return
-      state = aim*turn%scales
-      leak%jump = 2.0_wp*leak%jump
-      has_jumped = .true.
-   end subroutine jump_leak
 
    !> Take a turn into the history.
    pure subroutine remember(history, start, residual)
@@ -395,40 +382,5 @@ contains
          end do
       end associate
    end subroutine extrapolate
-
-   !> Put a plunger that a mixture of states has far beyond a stop on it: the stop would throw it back with more than all forces
-   !> of a train.
-   pure subroutine put_on_stop(turn, aim)
-      !> What integrates
-      type(turn_t), intent(in) :: turn
-      !> The state at the start of a turn, in units of the scales [-]
-      real(wp), intent(inout) :: aim(:)
-
-      ! Way beyond a stop that is far, over the plunger's travel [-]
-      real(wp), parameter :: far = 0.05_wp
-
-      if (.not. allocated(turn%problem%model%flexible%adjuster)) return
-      associate (given => turn%problem%model%flexible%adjuster%given, place => aim(at_plunger), scale => turn%scales(at_plunger))
-         if (scale*place < given%lowest - far*(given%highest - given%lowest)) place = given%lowest/scale
-         if (scale*place > given%highest + far*(given%highest - given%lowest)) place = given%highest/scale
-      end associate
-   end subroutine put_on_stop
-
-   !> Can a train be in a state? A mixture of states need not be one.
-   function is_possible(turn, aim) result(verdict)
-      !> What integrates
-      type(turn_t), intent(in) :: turn
-      !> The state at the start of a turn, in units of the scales [-]
-      real(wp), intent(in) :: aim(:)
-      !> Can it?
-      logical :: verdict
-
-      ! Rate there [state/rad]
-      real(wp) :: rate(size(aim))
-      integer :: status
-
-      call turn%problem%get_rate(turn%stops(1), aim*turn%scales, rate, status)
-      verdict = status == 0
-   end function is_possible
 
 end module camroller_flexible_cycle

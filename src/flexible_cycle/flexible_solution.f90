@@ -13,7 +13,8 @@ module camroller_flexible_solution
    use camroller_ode_problem, only : counters_t
    use camroller_trajectory, only : trajectory_t, interpolate_state
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, at_sliding
-   use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, extrapolate, is_possible, rest_of_train
+   use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, extrapolate, rest_of_train
+   use camroller_flexible_moves, only : is_possible
    use camroller_flexible_turn, only : turn_t, start_turns, set_tolerance, integrate_turn
    use camroller_flexible_measures, only : measure_count, measure_turn, seating_speed, smallest_lift
    use camroller_flexible_trend, only : find_trend, trend_t

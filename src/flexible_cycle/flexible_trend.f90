@@ -1,7 +1,7 @@
 !> Do turns without a period still change in one direction? What they say is then of a transient.
 !>
-!> In: the starts of some turns in a row. Out: `trend_t`. A component drifts where most of its scatter is a straight line over the
-!> number of the turn; turns approach a period where their distance from those a period before falls throughout.
+!> In: the starts of some turns in a row. Out: `trend_t`. A component drifts where its ranks follow the number of the turn, whatever
+!> the size of single steps; turns approach a period where their distance from those a period before falls throughout.
 module camroller_flexible_trend
    use camroller_kinds, only : wp
    implicit none
@@ -9,8 +9,8 @@ module camroller_flexible_trend
 
    public :: trend_t, find_trend
 
-   !> Correlation of a component with the number of the turn above which it drifts: of 40 independent numbers one in a million has
-   !> as much by chance [-]
+   !> Correlation of a component's ranks with the number of the turn above which it drifts: of 40 independent numbers one in a
+   !> million has as much by chance [-]
    real(wp), parameter :: steady = 0.7_wp
    !> Part of the smallest distance between turns at the beginning below which the largest at the end must be [-]
    real(wp), parameter :: nearer = 0.5_wp
@@ -53,20 +53,20 @@ contains
       end do
    end subroutine find_trend
 
-   !> Correlation of numbers with their places.
+   !> Correlation of the ranks of numbers with their places (Spearman).
    pure function correlation(values) result(coefficient)
       !> The numbers [any]
       real(wp), intent(in) :: values(:)
       !> From -1 to 1 [-]
       real(wp) :: coefficient
 
-      ! Places and numbers less their means [-], [any]
-      real(wp), dimension(size(values)) :: places, others
+      ! Places and ranks less their means; equal numbers share a rank [-]
+      real(wp), dimension(size(values)) :: places, ranks
       integer :: i
 
       places = [(i - 0.5_wp*(size(values) + 1), i=1, size(values))]
-      others = values - sum(values)/size(values)
-      coefficient = dot_product(places, others)/max(norm2(places)*norm2(others), tiny(1.0_wp))
+      ranks = [(0.5_wp*(count(values < values(i)) - count(values > values(i))), i=1, size(values))]
+      coefficient = dot_product(places, ranks)/max(norm2(places)*norm2(ranks), tiny(1.0_wp))
    end function correlation
 
 end module camroller_flexible_trend

@@ -5,18 +5,18 @@ module camroller_train_remarks
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t, kind_domain, raise
    use camroller_flexible_measures, only : bounce_height, bounces, check_share, closed_load, coil_compression, coil_ratio, &
-      & event_check_share, event_part, highest_plunger, largest_lift, largest_load, losses_of_contact, &
+      & event_check_share, highest_plunger, largest_lift, largest_load, losses_of_contact, &
       & lowest_plunger, seating_speed, smallest_lift, smallest_pivot_force, tension_share
    use camroller_flexible_setup, only : seat_sink
    use camroller_flexible_solution, only : flexible_solution_t
    use camroller_flexible_train, only : at_lift, at_plunger, at_pressure
    use camroller_gas, only : gas_force
-   use camroller_kinematics, only : position_t
    use camroller_kinds, only : two_pi, wp
    use camroller_lash_adjuster, only : ambient_pressure, opening_pressure
-   use camroller_model, only : evaluate_geometry, model_t
+   use camroller_model, only : model_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_ode_problem, only : counters_t
+   use camroller_pump_up, only : event_height, is_pumped_up
    use camroller_remarks, only : add_remark, bouncing_valve, empty_chamber, long_period, lost_contact, lost_lash, missing_lift, &
       & no_period, open_pivot, open_valve, pressed_seat, relieved_spring, remark_t, rising_plunger, shut_valve, &
       & sinking_plunger, stopped_plunger
@@ -196,14 +196,18 @@ contains
       real(wp), parameter :: far = 1.0e-4_wp
       ! Way below its rest, largest height above it in the event [m]
       real(wp) :: sink, height
+      character(len=:), allocatable :: text
 
       height = event_height(model, solution)
       associate (given => model%flexible%adjuster%given, highest => solution%highest(highest_plunger), &
          & lowest => solution%lowest(lowest_plunger))
-         if (solution%highest(event_check_share) > 0.0_wp) then
-            call add_remark(remarks, rising_plunger, "the lash adjuster pumps up: its check valve opens for "// &
+         if (is_pumped_up(model, solution)) then
+            text = "the lash adjuster pumps up: its check valve opens for "// &
                & number_text(100.0_wp*solution%mean(event_check_share), 3)//" % of the cycle while the valve is open, and the "// &
-               & "plunger stands up to "//number_text(1.0e3_wp*abs(height), 3)//" mm "// &
+               & "plunger stands"
+            if (.not. solution%highest(event_check_share) > 0.0_wp) text = "the lash adjuster pumps up, and has pumped up so "// &
+               & "far that its check valve stays shut while the valve is open: the plunger stands"
+            call add_remark(remarks, rising_plunger, text//" up to "//number_text(1.0e3_wp*abs(height), 3)//" mm "// &
                & trim(merge("above", "below", height >= 0.0_wp))//" its rest then, at "//speed, &
                & 100.0_wp*solution%mean(event_check_share))
          end if
@@ -217,32 +221,6 @@ contains
             & "loses lift and meets its seat early", sink)
       end associate
    end subroutine judge_plunger
-
-   !> Largest height of the plunger above its rest with the valve in the part of its lift that counts as the event.
-   function event_height(model, solution) result(height)
-      !> Model of the lobe, with an adjuster
-      type(model_t), intent(in) :: model
-      !> Solution of its train
-      type(flexible_solution_t), intent(in) :: solution
-      !> The height [m]
-      real(wp) :: height
-
-      type(position_t) :: position
-      real(wp) :: least ! Lift of the event [m]
-      integer :: turn, i, status
-
-      height = -huge(1.0_wp)
-      least = event_part*largest_lift(model)
-      do turn = 1, size(solution%turns)
-         associate (trajectory => solution%turns(turn))
-            do i = 1, trajectory%count
-               if (trajectory%state(at_plunger, i) - model%flexible%pivot_place <= height) cycle
-               call evaluate_geometry(model, trajectory%time(i), position, status)
-               if (status == 0 .and. position%lift >= least) height = trajectory%state(at_plunger, i) - model%flexible%pivot_place
-            end do
-         end associate
-      end do
-   end function event_height
 
    !> Remarks on the oil of a lash adjuster: a check valve that stays shut, a chamber that is as good as empty.
    subroutine judge_oil(model, solution, speed, remarks)
@@ -332,9 +310,13 @@ contains
             if (solution%trend%approached > 1) text = text//" of "//integer_text(solution%trend%approached)//" cycles"
          else if (solution%trend%drifts) then
             text = text//"; they still drift in one direction"
-            if (allocated(model%flexible%adjuster)) text = text//" (the plunger's highest place from "// &
-               & number_text(1.0e3_wp*solution%values(highest_plunger, 1), 3)//" to "// &
-               & number_text(1.0e3_wp*solution%values(highest_plunger, size(solution%turns)), 3)//" mm)"
+            if (allocated(model%flexible%adjuster)) then
+               associate (first => solution%values(highest_plunger, 1), last => solution%values(highest_plunger, &
+                  & size(solution%turns)))
+                  text = text//" (the plunger's highest place by "//number_text(1.0e6_wp*(last - first), 3)//" um, to "// &
+                     & number_text(1.0e3_wp*last, 4)//" mm)"
+               end associate
+            end if
          end if
          if (solution%trend%approached > 0 .or. solution%trend%drifts) text = text//": these numbers are those of a "// &
             & "transient; raise numerics.max_cycles"

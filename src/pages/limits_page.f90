@@ -26,7 +26,7 @@ contains
 
       character(len=first_width) :: name
       character(len=:), allocatable :: line, words
-      integer :: limit
+      integer :: limit, i
 
       name = "Lowest speed of the camshaft found at which ..."
       text = name//right_text("rigid train", speed_width)
@@ -53,6 +53,9 @@ contains
          text = text//n//"speeds in rev/min; the rigid train by its forces without friction, which follow the "// &
             & "square of the speed"
       end if
+      do i = 1, size(search%remarks)
+         text = text//n//"remark: "//search%remarks(i)%text
+      end do
       if (search%failure /= "") text = text//n//"higher speeds were not tried: "//search%failure
    end subroutine write_limits_page
 
@@ -110,6 +113,7 @@ contains
       if (limit == seating_limit .and. search%above(closing_limit) < min(search%highest, search%above(limit))) words = &
          & "   from "//number_text(search%above(closing_limit)*per_minute, 5)//" on it does not close"
       if (.not. search%above(limit) <= search%highest) return
+      if (.not. search%below(limit) > 0.0_wp) words = words//"   from the lowest speed tried on"
       if (search%period(limit) == 0) words = words//"   without a period"
       if (search%period(limit) > 1) words = words//"   with a period of "//integer_text(search%period(limit))//" cycles"
       if (search%regained(limit) <= search%highest) words = words//"   regained at "// &

@@ -10,13 +10,16 @@ module camroller_limit_speeds
    use camroller_case, only : case_t
    use camroller_error, only : error_t, add_context
    use camroller_events, only : cycle_stops, find_stops
-   use camroller_flexible_measures, only : event_check_share, event_pivot_force, event_words, seating_speed, smallest_event_load, &
+   use camroller_flexible_measures, only : event_pivot_force, event_words, seating_speed, smallest_event_load, &
       & smallest_lift, smallest_pivot_force
    use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
    use camroller_margins, only : find_margins, margins_t
    use camroller_model, only : model_t
    use camroller_number_text, only : number_text
+   use camroller_pump_up, only : is_pumped_up
+   use camroller_remarks, only : missing_lift, remark_t, stopped_plunger
    use camroller_run, only : build_models
+   use camroller_train_remarks, only : judge_train
    implicit none
    private
 
@@ -32,6 +35,8 @@ module camroller_limit_speeds
       & "the valve no longer closes"]
    !> Tolerance of the integration where the case gives none [-]
    real(wp), parameter :: usual_tolerance = 1.0e-4_wp
+   !> Remarks on a train that none of the limits shows: its valve does not follow the cam at all, or its plunger is on a stop
+   integer, parameter :: told_kinds(*) = [missing_lift, stopped_plunger]
    !> Width at which halving ends [rad/s]: 1 rev/min
    real(wp), parameter :: width = 1.0_wp/per_minute
 
@@ -58,6 +63,10 @@ module camroller_limit_speeds
       logical :: is_open = .false.
       !> Why the scan ended early
       character(len=:), allocatable :: failure
+      !> Remarks without which the limits mislead, each kind at the lowest speed that has it
+      type(remark_t), allocatable :: remarks(:)
+      !> These speeds [rad/s]
+      real(wp), allocatable :: remark_speeds(:)
    end type limits_t
 
 contains
@@ -84,6 +93,7 @@ contains
       search%highest = highest
       search%step = step
       search%failure = ""
+      allocate (search%remarks(0), search%remark_speeds(0))
       if (.not. case%numerics%tolerance > 0.0_wp) search%case%numerics%tolerance = usual_tolerance
       call build_models(case, models, error)
       if (allocated(error)) return
@@ -123,17 +133,19 @@ contains
       type(error_t), allocatable :: error
       ! Speed to try [rad/s]
       real(wp) :: speed
+      type(remark_t), allocatable :: remarks(:)
       logical :: is_passed(limit_count)
       integer :: period, limit
 
       speed = next_speed(search)
-      call judge_speed(search, speed, is_passed, period, error)
+      call judge_speed(search, speed, is_passed, period, remarks, error)
       search%done = search%done + 1
       if (allocated(error)) then
          search%failure = "at "//number_text(speed*per_minute, 6)//" rev/min: "//error%message
          search%is_open = .false.
          return
       end if
+      call note_first(search, speed, remarks)
       do limit = 1, limit_count
          if (speed > search%above(limit) .and. .not. is_passed(limit)) search%regained(limit) = min(search%regained(limit), speed)
          if (is_passed(limit) .and. period == 0 .and. speed > search%regained(limit) .and. &
@@ -148,6 +160,30 @@ contains
       end do
       search%is_open = next_speed(search) > 0.0_wp
    end subroutine try_speed
+
+   !> Keep what remarks of a speed have to be told, at the lowest speed of each kind.
+   pure subroutine note_first(search, speed, remarks)
+      !> The search
+      type(limits_t), intent(inout) :: search
+      !> The speed [rad/s]
+      real(wp), intent(in) :: speed
+      !> Its remarks
+      type(remark_t), intent(in) :: remarks(:)
+
+      integer :: i, k
+
+      do i = 1, size(remarks)
+         if (.not. any(remarks(i)%kind == told_kinds)) cycle
+         k = findloc(search%remarks%kind, remarks(i)%kind, 1)
+         if (k == 0) then
+            search%remarks = [search%remarks, remarks(i)]
+            search%remark_speeds = [search%remark_speeds, speed]
+         else if (speed < search%remark_speeds(k)) then
+            search%remarks(k) = remarks(i)
+            search%remark_speeds(k) = speed
+         end if
+      end do
+   end subroutine note_first
 
    !> The speed to try next: the middle of a limit's bracket, or where all that have one are narrow the next of the scan.
    pure function next_speed(search) result(speed)
@@ -183,7 +219,7 @@ contains
    end function applies
 
    !> What the train does at a speed.
-   subroutine judge_speed(search, speed, is_passed, period, error)
+   subroutine judge_speed(search, speed, is_passed, period, remarks, error)
       !> The search
       type(limits_t), intent(in) :: search
       !> The speed [rad/s]
@@ -192,6 +228,8 @@ contains
       logical, intent(out) :: is_passed(limit_count)
       !> Cycles of the period; 0 where there is none
       integer, intent(out) :: period
+      !> Remarks on the trains of all lobes
+      type(remark_t), allocatable, intent(out) :: remarks(:)
       !> Domain or convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -200,6 +238,7 @@ contains
       type(flexible_solution_t) :: solution
       integer :: lobe
 
+      allocate (remarks(0))
       is_passed = .false.
       period = 1
       case = search%case
@@ -215,8 +254,10 @@ contains
          is_passed(contact_limit) = is_passed(contact_limit) .or. .not. solution%lowest(smallest_event_load) > 0.0_wp
          is_passed(seating_limit) = is_passed(seating_limit) .or. solution%highest(seating_speed) > search%seating
          is_passed(closing_limit) = is_passed(closing_limit) .or. solution%highest(smallest_lift) > 0.0_wp
-         if (search%has_adjuster) is_passed(adjuster_limit) = is_passed(adjuster_limit) .or. &
-            & solution%highest(event_check_share) > 0.0_wp
+         if (search%has_adjuster) is_passed(adjuster_limit) = is_passed(adjuster_limit) .or. is_pumped_up(models(lobe), solution)
+         ! Contact that is lost has limits of its own
+         call judge_train(models(lobe), solution, 0.0_wp, remarks, error)
+         if (allocated(error)) return
          if (solution%cycle%period /= 1 .and. period > 0) period = solution%cycle%period
       end do
    end subroutine judge_speed

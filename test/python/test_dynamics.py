@@ -289,7 +289,7 @@ def test_load_of_the_closed_valve_is_that_of_the_lift_at_rest(tmp_path, camrolle
     assert 64 < summary["closed_load_max"] < 85
 
 
-@pytest.mark.parametrize("speed, words", [(2350, "they still drift in one direction (the plunger's highest place from "),
+@pytest.mark.parametrize("speed, words", [(2350, "they still drift in one direction (the plunger's highest place by "),
                                           (1900, "they still approach a period of 2 cycles: ")])
 def test_turns_that_are_still_on_their_way_are_called_a_transient(speed, words, tmp_path, camroller):
     done = subprocess.run([camroller, "run", ADJUSTER, "-o", tmp_path / "run.h5", "--quiet", "--set", f"sweep.values_1={speed}"],

@@ -337,6 +337,15 @@ contains
       call find_trend(starts, trend)
       call check(error, trend%drifts .and. trend%approached == 0, "a drift is not seen")
       if (allocated(error)) return
+      ! A first turn that lies farther off than all of the drift
+      starts(1, :) = [-2.0_wp*n, (-0.01_wp*i, i=2, n)]
+      call find_trend(starts, trend)
+      call check(error, trend%drifts, "a drift behind one turn that is far off is not seen")
+      if (allocated(error)) return
+      starts(1, :) = 0.0_wp
+      call find_trend(starts, trend)
+      call check(error, .not. trend%drifts, "a constant drifts")
+      if (allocated(error)) return
       starts(1, :) = [(0.9_wp**i, i=1, n)]
       call find_trend(starts, trend)
       call check(error, trend%approached, 1, "a fixed point")
