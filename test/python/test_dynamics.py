@@ -302,6 +302,22 @@ def test_turns_that_are_still_on_their_way_are_called_a_transient(speed, words, 
     assert "did not become periodic within 60 cycles" in warnings and words in warnings
     assert "these numbers are those of a transient; raise numerics.max_cycles" in warnings
 
+@pytest.mark.parametrize("speed, temperature", [(2350, 95), (2200, -10)])
+def test_an_adjuster_that_climbs_is_followed_to_its_stop(speed, temperature, tmp_path, camroller):
+    """What the usual number of cycles calls a transient ends there, in oil so cold too that it leaks out over thousands of turns."""
+    summary, warnings = run(camroller, ADJUSTER, tmp_path / "run.h5", f"sweep.values_1={speed}", "numerics.max_cycles=400",
+                            f"operating_point.oil_temperature_degC={temperature}")
+    assert summary["period_cycles"] > 0 and "transient" not in warnings
+    assert "the lash adjuster pumps up" in warnings and "reaches its upper stop" in warnings
+
+
+def test_limit_of_an_adjuster_in_cold_oil_is_where_its_plunger_climbs(camroller):
+    """At the limit the check valve opens for some turns of hundreds; a search that puts the plunger on its stop finds it shut."""
+    done = subprocess.run([camroller, "limit", ADJUSTER, "--to", "2200", "--step", "1100", "--set", "operating_point.oil_temperature_degC=-10"],
+                          capture_output=True, text=True)
+    assert 2150 < float(re.search(r"the lash adjuster pumps up +[\d.]+ +([\d.]+)", done.stdout)[1]) < 2170, done.stdout
+
+
 
 def test_gas_on_the_closed_valve_is_in_the_estimate_and_has_a_remark(tmp_path, camroller):
     """60 bar on a valve of 30 mm press it 85 um into a seat of 5e7 N/m, and the finger onto the base circle with it."""
