@@ -3,8 +3,7 @@
 !> In: model, tolerance. Out: `flexible_cycle_t` with the last cycle, from full lift of one turn less half a turn on. Plain cycles
 !> approach the periodic state by the slowest decay of spring and adjuster, or drift towards it; Anderson's acceleration
 !> extrapolates from the last few, but for turns that alternate: there a period of two may be near. An adjuster that leaks down is
-!> moved on by many turns at once; one that climbs is never put back, and none beyond its upper stop. Where a turn fails after a
-!> move, the search goes back to the end of the turn before. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
+!> moved on by many turns at once; none is put beyond its upper stop. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
 module camroller_flexible_cycle
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -14,8 +13,7 @@ module camroller_flexible_cycle
    use camroller_flexible_setup, only : rest_t, find_rest, seat_sink
    use camroller_flexible_train, only : resolution_t, state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
    use camroller_flexible_problem, only : largest_sliding_scale
-   use camroller_flexible_moves, only : climbs, go_back, is_possible, jump_leak, least_kept, may_stand, moves_t, note_change, &
-      & put_on_stop
+   use camroller_flexible_moves, only : is_possible, jump_leak, leak_t, may_stand, put_on_stop
    use camroller_flexible_turn, only : turn_t, set_sliding_tolerance, integrate_turn
    use camroller_lapack, only : dgesv, dgetrf
    implicit none
@@ -27,8 +25,10 @@ module camroller_flexible_cycle
    integer, parameter, public :: longest_period = 8
    !> Cycles that acceleration mixes
    integer, parameter :: depth = 5
-   !> Contraction above which acceleration pays [-]
+   !> Contraction above which acceleration pays, and number of turns that it needs: with fewer, trains whose check valve opens late
+   !> in a turn take up to twice as many turns [-]
    real(wp), parameter :: slow = 0.1_wp
+   integer, parameter :: least_kept = 3
    !> Part of a disturbance that comes back with the other sign above which turns alternate [-]
    real(wp), parameter :: alternating = 0.9_wp
    !> Turns before the last one that tell whether turns alternate
@@ -115,7 +115,7 @@ contains
       real(wp) :: ends(size(state), 0:2*longest_period), distance, last_distance
       ! Start of a turn, its end less its start, where the periodic state should be, in units of the scales [-]
       real(wp), dimension(size(state)) :: start, residual, aim
-      type(moves_t) :: moves
+      type(leak_t) :: leak
       integer :: turns, plain
       logical :: is_scaled, alternates, has_moved
 
@@ -128,14 +128,7 @@ contains
          cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
          call integrate_turn(turn, state, cycle%trajectory, cycle%counters, error)
          cycle%cycles = cycle%cycles + 1
-         if (allocated(error)) then
-            if (.not. allocated(moves%before)) return
-            deallocate (error)
-            call go_back(moves, state)
-            cycle%history%kept = 0
-            plain = 0
-            cycle
-         end if
+         if (allocated(error)) return
          call scale_sliding(turn, cycle%trajectory, is_scaled)
          residual = (state - start)/turn%scales
          start = start/turn%scales
@@ -158,7 +151,7 @@ contains
          if (cycle%period > 0) return
          ! What follows the search begins where a turn ended
          if (cycle%counters%accepted + cycle%counters%rejected > turn%most_search .or. turns == max_cycles) exit
-         call move_on(moves, cycle%history, turn, residual, aim, distance > slow*last_distance .and. .not. alternates, &
+         call move_on(leak, cycle%history, turn, residual, aim, distance > slow*last_distance .and. .not. alternates, &
             & state, has_moved)
          if (has_moved) plain = 0
          last_distance = distance
@@ -168,9 +161,9 @@ contains
 
    !> Move a train on from the end of a turn: where its adjuster leaks down, or to where the last turns say that the periodic state
    !> is.
-   subroutine move_on(moves, history, turn, residual, aim, is_slow, state, has_moved)
+   subroutine move_on(leak, history, turn, residual, aim, is_slow, state, has_moved)
       !> The turns before; out: with this one
-      type(moves_t), intent(inout) :: moves
+      type(leak_t), intent(inout) :: leak
       !> The turns that extrapolation is made from
       type(history_t), intent(inout) :: history
       !> What integrates
@@ -186,27 +179,18 @@ contains
       !> Is it another one?
       logical, intent(out) :: has_moved
 
-      ! End of the turn [state]
-      real(wp) :: ending(size(state))
-
-      ending = state
-      call note_change(moves, turn, residual)
-      moves%waiting = moves%waiting - 1
-      has_moved = .false.
-      if (moves%waiting > 0) return
-      call jump_leak(moves, turn, state, has_moved)
+      call jump_leak(leak, turn, residual, state, has_moved)
       if (has_moved) then
          history%kept = 0
       else if (is_slow .and. history%kept >= least_kept) then
          call put_on_stop(turn, aim)
-         has_moved = is_possible(turn, aim) .and. may_stand(turn, ending, aim, climbs(moves))
+         has_moved = may_stand(turn, state, aim) .and. is_possible(turn, aim)
          if (has_moved) then
             state = aim*turn%scales
          else
             history%kept = 1
          end if
       end if
-      if (has_moved) moves%before = ending
    end subroutine move_on
 
    !> Do the last turns make a period of several? The difference from one period to the next, over that between the two before, is
