@@ -19,8 +19,8 @@ module camroller_ehl_command
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_file, only : ehl_file_t, open_ehl, write_ehl, close_ehl
    use camroller_ehl_page, only : ehl_line_t, write_friction, write_head, write_line
-   use camroller_ehl_profiles, only : plain_model
-   use camroller_ehl_record, only : ehl_record_t, keep_nodes, make_ehl_record
+   use camroller_ehl_profiles, only : judge_light, plain_model
+   use camroller_ehl_record, only : ehl_record_t, cycle_count, keep_nodes, make_ehl_record
    use camroller_ehl_summary, only : make_ehl_summary
    use camroller_events, only : contact_losses, cycle_stops, find_stops
    use camroller_layout, only : layout_t
@@ -30,7 +30,7 @@ module camroller_ehl_command
    use camroller_output, only : output_options_t
    use camroller_output_kind, only : result_kind
    use camroller_part_scan, only : study_facts_t
-   use camroller_remarks, only : remark_lines, remark_t
+   use camroller_remarks, only : add_remark, plain_contacts, remark_lines, remark_t
    use camroller_run_command, only : check_cases, find_place, tell_remarks
    use camroller_run_facts, only : study_facts
    use camroller_streams, only : print_lines, tell
@@ -73,10 +73,8 @@ contains
       call make_sweep_case(deck, 1, case, error)
       if (.not. allocated(error)) call open_cases(writer, path, deck, facts, output_options_t(), .false., error)
       if (.not. allocated(error)) call open_ehl(file, writer%file, merge(2, 1, allocated(case%second_lift)), angle_count, &
-         & fewest_nodes, .false., error)
+         & fewest_nodes, cycle_count, .false., error)
       if (allocated(error)) return
-      if (allocated(case%heat) .and. .not. config%is_quiet) call tell("remark: &heat is left out: over the cycle the film "// &
-         & "has one temperature; profiles of a run have heat (&ehl profiles = .true.)"//new_line("a"))
       call solve_cases(deck, config%is_quiet, writer, file, lines, unheard, error)
       call close_ehl(file)
       if (.not. allocated(error) .and. size(lines) == 0) error = writer%tally%failure
@@ -128,6 +126,8 @@ contains
       do i = 1, sweep_size(deck%sweep)
          outcome%status = 0
          outcome%remarks = [remark_t ::]
+         call make_sweep_case(deck, i, case, trouble)
+         if (.not. allocated(trouble)) call judge_parts(case, outcome%remarks)
          do lobe = 1, size(file%lobes)
             call make_sweep_case(deck, i, case, trouble)
             if (.not. allocated(trouble)) call solve_case(case, lobe == 2, outcome%remarks, record, line, trouble, without_steady)
@@ -182,7 +182,8 @@ contains
       call integrate_converged(cycle, model, line%coarse, line%fine, options, error)
       if (allocated(error)) return
       line%steps = size(cycle%angle)
-      call make_ehl_record(record, model, cycle)
+      call make_ehl_record(record, model, cycle, cycle_count)
+      call judge_light(record, remarks)
       call keep_nodes(record, fewest_nodes)
       call line%set_friction(record)
       options%is_transient = .false.
@@ -193,6 +194,20 @@ contains
       call cpu_time(finish)
       line%time = finish - start
    end subroutine solve_case
+
+   !> Remarks on groups of a case that solved contacts leave out.
+   subroutine judge_parts(case, remarks)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Remarks on it so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      if (allocated(case%dynamics)) call add_remark(remarks, plain_contacts, "&dynamics is left out: load and slip are those "// &
+         & "of a rigid train; profiles of a run have the load of the flexible one (ehl.profiles = .true.)")
+      if (allocated(case%running_in)) call add_remark(remarks, plain_contacts, "&running_in is left out: the surfaces are new")
+      if (allocated(case%heat)) call add_remark(remarks, plain_contacts, "&heat is left out: over the cycle the film has one "// &
+         & "temperature; profiles of a run have heat (ehl.profiles = .true.)")
+   end subroutine judge_parts
 
    !> Remarks on what the film has no part in: contact, the pivot's joint, the valve's seat.
    subroutine judge_forces(model, lobe, remarks, error)

@@ -452,7 +452,7 @@ contains
       real(wp), allocatable :: stored(:) ! [unit of the dataset]
       integer :: i
 
-      call list_ehl_quantities(list)
+      call list_ehl_quantities(size(record%values, 2), list)
       do i = 1, size(list)
          call read_numbers(self%file, "/"//group//"/"//list(i)%name, [0, number], [size(record%angle), 1], stored, error)
          if (allocated(error)) return

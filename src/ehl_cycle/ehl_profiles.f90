@@ -4,26 +4,28 @@
 !> formulas at the same loads and speeds for comparison. The result itself is not changed.
 module camroller_ehl_profiles
    use camroller_cam_angle, only : cam_angle_text
-   use camroller_kinds, only : wp, pi, degree
+   use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t
    use camroller_dynamics, only : moments_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, prepare_march
    use camroller_ehl_newton, only : ehl_state_t
-   use camroller_ehl_record, only : ehl_record_t, make_ehl_record
+   use camroller_ehl_record, only : column, ehl_record_t, make_ehl_record, profile_count
    use camroller_ehl_reynolds, only : new_ehl_fields
-   use camroller_ehl_step, only : ehl_march_t, moment_t, find_film, spin_excess
+   use camroller_ehl_step, only : ehl_march_t, lost_part, moment_t, find_film, spin_excess
+   use camroller_ehl_summary, only : mean_over_cycle
    use camroller_ehl_table, only : ehl_t
    use camroller_cam_check, only : check_geometry
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, new_model
-   use camroller_remarks, only : add_remark, missing_profiles
+   use camroller_number_text, only : number_text
+   use camroller_remarks, only : add_remark, light_contact, missing_profiles, plain_contacts, remark_t
    use camroller_result, only : result_t, find_quantity
    use camroller_state, only : evaluate_loading
    implicit none
    private
 
-   public :: find_profiles, make_profiles, plain_model
+   public :: find_profiles, judge_light, make_profiles, plain_model
 
    !> Nodes across a contact
    integer, parameter :: profile_nodes = 129
@@ -45,7 +47,14 @@ contains
       if (.not. case%ehl%profiles) return
       allocate (record)
       call make_profiles(record, case, result, error)
-      if (.not. allocated(error)) return
+      if (.not. allocated(error)) then
+         if (allocated(case%dynamics)) call add_remark(result%remarks, plain_contacts, "profiles are solved at load and "// &
+            & "slip of the flexible train and at the speeds of a rigid one")
+         if (allocated(case%running_in)) call add_remark(result%remarks, plain_contacts, "profiles are solved between new "// &
+            & "surfaces, at load and slip of those that &running_in leaves")
+         call judge_light(record, result%remarks)
+         return
+      end if
       deallocate (record)
       call add_remark(result%remarks, missing_profiles, "no profiles: "//error%message)
       result%lacks_profiles = .true.
@@ -69,8 +78,25 @@ contains
       if (.not. allocated(error)) call steady_contacts(cycle, model, result%angle*degree - pi, &
          & result%series_values(:, find_quantity(result%series, "contact_load")), &
          & result%series_values(:, find_quantity(result%series, "sliding_speed")), error)
-      if (.not. allocated(error)) call make_ehl_record(record, model, cycle)
+      if (.not. allocated(error)) call make_ehl_record(record, model, cycle, profile_count)
    end subroutine make_profiles
+
+   !> A remark where solved contacts have no film under a load: it is below the part of the largest from which films are solved.
+   subroutine judge_light(record, remarks)
+      !> The solved contacts
+      type(ehl_record_t), intent(in) :: record
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      ! 1 where there is a load without a film, else 0; part of the cycle [-]
+      real(wp) :: is_light(size(record%angle)), part
+
+      is_light = merge(1.0_wp, 0.0_wp, column(record, "load") > 0.0_wp .and. .not. column(record, "peak_pressure") > 0.0_wp)
+      part = mean_over_cycle([record%angle, record%angle(1) + two_pi], [is_light, is_light(1)])
+      if (part > 0.0_wp) call add_remark(remarks, light_contact, "the film is not solved for "//number_text(100.0_wp*part, 3)// &
+         & " % of the cycle, where the load is below "//number_text(100.0_wp*lost_part, 2)// &
+         & " % of the largest: film, pressure and friction are zero there, and mean films are without these angles", 100.0_wp*part)
+   end subroutine judge_light
 
    !> Model of a case with the film law of the deck, without a table of numerical films, for solved contacts.
    subroutine plain_model(model, case, is_second, error)

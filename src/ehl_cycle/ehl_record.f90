@@ -17,7 +17,7 @@ module camroller_ehl_record
    implicit none
    private
 
-   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, keep_nodes, column, quantity_count
+   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, keep_nodes, column, cycle_count, profile_count
 
    !> Pressure, film and quantities of a cycle
    type :: ehl_record_t
@@ -30,19 +30,22 @@ module camroller_ehl_record
       real(wp), allocatable :: values(:, :)
    end type ehl_record_t
 
-   !> Number of quantities
-   integer, parameter :: quantity_count = 21
+   !> Number of quantities of a cycle of solved contacts, and of profiles at the load and slip of a run: without torques, which would
+   !> be of neither
+   integer, parameter :: cycle_count = 21, profile_count = 17
 
 contains
 
    !> The quantities of a record.
-   subroutine list_ehl_quantities(list)
+   subroutine list_ehl_quantities(count, list)
+      !> How many it has, `cycle_count` or `profile_count`
+      integer, intent(in) :: count
       !> The list
       type(quantity_t), allocatable, intent(out) :: list(:)
 
       integer :: n
 
-      allocate (list(quantity_count))
+      allocate (list(cycle_count))
       n = 0
       call add("half_width", "m", "length unit of the node positions")
       call add("load", "N", "contact load")
@@ -65,6 +68,7 @@ contains
       call add("torque_friction", "N m", "torque of this follower for all losses")
       call add("torque_drive", "N m", "torque that drives the camshaft for this follower")
       call add("energy_residual", "W", "drive power minus losses minus stored power")
+      list = list(:count)
 
    contains
 
@@ -82,13 +86,15 @@ contains
    end subroutine list_ehl_quantities
 
    !> Record of a cycle.
-   subroutine make_ehl_record(record, model, cycle)
+   subroutine make_ehl_record(record, model, cycle, count)
       !> The record
       type(ehl_record_t), intent(out) :: record
       !> The model
       type(model_t), intent(in) :: model
       !> The cycle, with or without profiles
       type(ehl_cycle_t), intent(in) :: cycle
+      !> Number of quantities, `cycle_count` or `profile_count`
+      integer, intent(in) :: count
 
       type(state_t) :: state
       type(contact_t) :: closed
@@ -101,7 +107,7 @@ contains
          record%film = cycle%film
          if (allocated(cycle%film_rise)) record%film_rise = cycle%film_rise
       end if
-      allocate (record%values(size(cycle%angle), quantity_count))
+      allocate (record%values(size(cycle%angle), cycle_count))
       do i = 1, size(cycle%angle)
          call solved_state(model, cycle%moments(i), state)
          call closed_contact(model, cycle%moments(i), state, closed)
@@ -112,6 +118,7 @@ contains
             & state%contact%boundary_mobilised, closed%boundary_mobilised, state%contact%traction, state%torques(of_contact), &
             & state%torque_friction, state%torque_drive, state%torques(of_residual)]
       end do
+      record%values = record%values(:, :count)
    end subroutine make_ehl_record
 
    !> Keep some of the nodes only, those of a coarser grid that the record's is nested in.
@@ -213,7 +220,7 @@ contains
 
       type(quantity_t), allocatable :: list(:)
 
-      call list_ehl_quantities(list)
+      call list_ehl_quantities(cycle_count, list)
       values = record%values(:, find_quantity(list, name))
    end function column
 

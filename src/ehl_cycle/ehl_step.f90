@@ -31,7 +31,8 @@ module camroller_ehl_step
    implicit none
    private
 
-   public :: moment_t, ehl_march_t, make_step, contact_at, find_film, spin_excess, bearing_moment, rate_weights, max_rounds
+   public :: moment_t, ehl_march_t, make_step, contact_at, find_film, spin_excess, bearing_moment, rate_weights, max_rounds, &
+      & lost_part
 
    !> What a step leaves behind
    type :: moment_t

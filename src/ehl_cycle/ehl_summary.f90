@@ -20,7 +20,7 @@ module camroller_ehl_summary
    type :: ehl_summary_t
       !> Nodes
       integer :: nodes = 0
-      !> Smallest film, mean of the smallest and of the central film over the cycle [m]
+      !> Smallest film, mean of the smallest and of the central film over the angles that have one [m]
       real(wp) :: smallest_film = 0.0_wp, mean_film = 0.0_wp, mean_central = 0.0_wp
       !> Mean of the sliding speed, of its size, of the rolling speed's size [m/s]
       real(wp) :: mean_slip = 0.0_wp, mean_size = 0.0_wp, mean_rolling = 0.0_wp
@@ -38,8 +38,8 @@ contains
       type(ehl_summary_t) :: summary
 
       type(position_t) :: position
-      ! Size of the rolling speed, sliding speed [m/s]; smallest and central films [m]
-      real(wp) :: rolling(size(cycle%angle)), slip(size(cycle%angle)), films(size(cycle%angle), 2)
+      ! Size of the rolling speed, sliding speed [m/s]; smallest and central films [m]; 1 where there is a film [-]
+      real(wp) :: rolling(size(cycle%angle)), slip(size(cycle%angle)), films(size(cycle%angle), 2), with_film(size(cycle%angle))
       integer :: i, status
 
       do i = 1, size(cycle%angle)
@@ -52,9 +52,12 @@ contains
          films(:, 1) = moments%films%minimum
          films(:, 2) = moments%films%central
          slip = moments%sliding_speed
+         with_film = merge(1.0_wp, 0.0_wp, moments%has_film)
       end associate
-      summary%mean_film = mean_over_cycle(cycle%angle, films(:, 1))
-      summary%mean_central = mean_over_cycle(cycle%angle, films(:, 2))
+      associate (part => max(mean_over_cycle(cycle%angle, with_film), tiny(1.0_wp)))
+         summary%mean_film = mean_over_cycle(cycle%angle, films(:, 1)*with_film)/part
+         summary%mean_central = mean_over_cycle(cycle%angle, films(:, 2)*with_film)/part
+      end associate
       summary%mean_slip = mean_over_cycle(cycle%angle, slip)
       summary%mean_size = mean_over_cycle(cycle%angle, abs(slip))
       summary%mean_rolling = mean_over_cycle(cycle%angle, rolling)

@@ -38,13 +38,15 @@ module camroller_ehl_file
 contains
 
    !> Create the datasets.
-   subroutine open_ehl(file, writer, lobe_count, angle_count, node_count, has_heat, error)
+   subroutine open_ehl(file, writer, lobe_count, angle_count, node_count, quantity_count, has_heat, error)
       !> The datasets
       type(ehl_file_t), intent(out) :: file
       !> The writer
       type(output_t), intent(inout) :: writer
       !> Lobe shapes, cam angles of a cycle, nodes of a contact
       integer, intent(in) :: lobe_count, angle_count, node_count
+      !> Quantities over the cam angle
+      integer, intent(in) :: quantity_count
       !> Do profiles have heat?
       logical, intent(in) :: has_heat
       !> File error
@@ -56,7 +58,7 @@ contains
       file%angle_count = angle_count
       file%node_count = node_count
       file%has_heat = has_heat
-      call list_ehl_quantities(file%quantities)
+      call list_ehl_quantities(quantity_count, file%quantities)
       allocate (file%lobes(lobe_count))
       call check_open(writer, error)
       if (allocated(error)) return

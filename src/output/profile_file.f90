@@ -36,7 +36,7 @@ contains
       if (.not. allocated(profiles)) return
       if (.not. self%is_open) then
          call open_ehl(self%file, writer, 1, size(profiles%angle), size(profiles%nodes), &
-            & allocated(profiles%film_rise), error)
+            & size(profiles%values, 2), allocated(profiles%film_rise), error)
          self%is_open = .true.
          if (allocated(error)) return
       end if

@@ -27,7 +27,7 @@ module camroller_ehl_page
       logical :: has_steady = .false.
       !> Time [s]
       real(wp) :: time = 0.0_wp
-      !> Mean over the cycle of what `compared` names, integrated and by the closed formula [m], [m], [N], [N]
+      !> Mean over the angles with a solved contact of what `compared` names, integrated and by the closed formula [m], [m], [N], [N]
       real(wp) :: friction(size(compared), 2) = 0.0_wp
    contains
       procedure :: set_friction
@@ -42,11 +42,15 @@ contains
       !> Record of the cycle
       type(ehl_record_t), intent(in) :: record
 
+      ! 1 where a contact was solved, else 0, and the mean of it [-]
+      real(wp) :: is_solved(size(record%angle)), part
       integer :: i
 
+      is_solved = merge(1.0_wp, 0.0_wp, column(record, "peak_pressure") > 0.0_wp)
+      part = max(mean_over_cycle(record%angle, is_solved), tiny(1.0_wp))
       do i = 1, size(compared)
-         self%friction(i, 1) = mean_over_cycle(record%angle, abs(column(record, trim(compared(i)))))
-         self%friction(i, 2) = mean_over_cycle(record%angle, abs(column(record, trim(compared(i))//"_formula")))
+         self%friction(i, 1) = mean_over_cycle(record%angle, is_solved*abs(column(record, trim(compared(i)))))/part
+         self%friction(i, 2) = mean_over_cycle(record%angle, is_solved*abs(column(record, trim(compared(i))//"_formula")))/part
       end do
    end subroutine set_friction
 
@@ -98,7 +102,7 @@ contains
       character(len=width) :: buffer
       integer :: i, k
 
-      text = n//"Means over the cycle, and deviation of the closed formulas at the same load and slip"//n// &
+      text = n//"Means over the angles with a film, and deviation of the closed formulas at the same load and slip"//n// &
          & "case lobe  smallest film        central film         rolling resistance   shear of the film"//n// &
          & "           [um]      formula    [um]      formula    [N]       formula    [N]       formula"
       do i = 1, size(lines)

@@ -299,6 +299,35 @@ def test_a_run_writes_profiles_where_the_deck_asks(camroller, tmp_path):
         assert numpy.allclose(file["ehl/film_min"][0], file["series/film_thickness_min"][0], rtol=0.03)
 
 
+def test_solved_contacts_say_which_groups_and_loads_they_leave_out(camroller, tmp_path):
+    """Means are over the angles with a film: none is below the smallest of it."""
+    path = tmp_path / "solved.h5"
+    result = run(camroller, "ehl", ROOT / "decks/hard/light_base_circle_load.nml", "-o", path, folder=tmp_path)
+    smallest, mean = result.stdout.splitlines()[3].split()[2:4]
+    assert float(mean) > float(smallest)
+    with h5py.File(path) as file:
+        load, peak = (file[f"ehl/{name}"][0] for name in ("load", "peak_pressure"))
+        told = file["run/warnings"][0].decode()
+    part = float(told.partition("the film is not solved for ")[2].split()[0])
+    # In the file at 720 angles, between the steps
+    assert abs(part - 100 * numpy.mean((load > 0) & ~(peak > 0))) < 1
+    for deck, words in (("tribofilm", "&running_in is left out: "), ("dynamics", "&dynamics is left out: ")):
+        done(camroller, "ehl", ROOT / f"decks/{deck}.nml", "-o", path, "--set", "sweep.values_1=900")
+        with h5py.File(path) as file:
+            assert words in file["run/warnings"][0].decode()
+
+
+@pytest.mark.parametrize(("deck", "words"), [("tribofilm", "between new surfaces"), ("dynamics", "at the speeds of a rigid one")])
+def test_profiles_of_a_run_have_no_torques_and_say_what_is_not_in_them(camroller, tmp_path, deck, words):
+    path = tmp_path / "run.h5"
+    text = (ROOT / f"decks/{deck}.nml").read_text() + "\n&ehl\n   profiles = .true.\n/\n"
+    (tmp_path / "deck.nml").write_text(text)
+    done(camroller, "run", tmp_path / "deck.nml", "-o", path, "--set", "sweep.values_1=900", "--set", "output.angle_step_deg=10")
+    with h5py.File(path) as file:
+        assert words in file["run/warnings"][0].decode()
+        assert "traction" in file["ehl"] and not {"torque_drive", "energy_residual"} & set(file["ehl"])
+
+
 def test_friction_that_nearly_lifts_the_roller_off_ends_with_words(camroller, tmp_path):
     """The last step to the balance took more than all of the load there, and its root was no number."""
     deck = ROOT / "test/data/lifted_roller/deck.nml"
