@@ -115,8 +115,8 @@ def draw(data: dict, run: dict | None, angles: list[float], title: str) -> Figur
     # A contact that is lost or regained has a thick film for a moment
     usual = max(1e6 * numpy.nanpercentile(data[name], 98) for name in ("film_central", "film_central_formula"))
     axes[0, 1].set(ylabel=f"film [{MICRO}m]", ylim=(0, 1.2 * usual))
-    # Profiles of a run have its sliding speed
-    is_own = bool(run) and numpy.array_equal(run["sliding_speed"], data["sliding_speed"])
+    # Profiles of a run have its sliding speed, and no torques
+    is_own = "torque_drive" not in data
     axes[1, 1].plot(turn, shown(data["sliding_speed"]), "k", label="of the run" if is_own else "solved contact")
     if run and not is_own:
         axes[1, 1].plot(run["angle"], shown(run["sliding_speed"]), "C3", label="run with a film law")
@@ -168,6 +168,12 @@ def read_point(path: str, case: int) -> str:
         return ", ".join(words)
 
 
+def has_second(path: str) -> bool:
+    """Is there a second lobe shape in the file, or in the run that it is of?"""
+    with opened(path) as file:
+        return "second_lift" in file.get("ehl", {}) or any(name.startswith("lobe_2_") for name in file.get("series", {}))
+
+
 def read_run(path: str, case: int) -> dict:
     """Cam angle and sliding speed of a run."""
     with opened(path, "a result of a run with series") as file:
@@ -203,10 +209,14 @@ def main(arguments=None) -> int:
         lobes = read(options.file, options.case)
         point = read_point(options.file, options.case)
         run_beside = read_run(options.run, options.case) if options.run else None
+        if options.run and read_point(options.run, options.case) != point:
+            raise ResultError(f"case {options.case} is {point or 'without a sweep'} in {options.file}, and "
+                              f"{read_point(options.run, options.case) or 'without a sweep'} in {options.run}")
         for name, data in lobes.items():
             if numpy.isnan(data["load"]).all():
                 raise ResultError(f"case {options.case} has no solved contacts")
-            title = f"case {options.case}" + (f": {point}" if point else "") + (", second lobe shape" if name else "")
+            title = f"case {options.case}" + (f": {point}" if point else "") + (
+                ", second lobe shape" if name else ", first lobe shape" if has_second(options.file) else "")
             for target, make in ((options.output, lambda: draw(data, None if name else run_beside, options.angles, title)),
                                  (options.map, lambda: draw_map(data, title))):
                 if target:

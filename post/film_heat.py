@@ -43,6 +43,9 @@ def rows(heated: dict[str, np.ndarray], isothermal: dict[str, np.ndarray]) -> li
         raise ResultError("the first file has no contacts with heat")
     if heated["film_central"].shape != isothermal["film_central"].shape:
         raise ResultError("the files have different cases")
+    for key in heated.keys() & isothermal.keys() & {"speed_rpm", "oil_temperature_degC"}:
+        if not np.array_equal(heated[key], isothermal[key]):
+            raise ResultError(f"the files have different values of {key}")
     table = []
     for case, (warm, cold) in enumerate(zip(heated["film_central"], isothermal["film_central"])):
         row = [number(heated[key][case]) if key in heated else "" for key in ("speed_rpm", "oil_temperature_degC")]

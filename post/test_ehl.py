@@ -22,7 +22,7 @@ def made_up(tmp_path):
             group["node"] = np.arange(x.size)
             group["x"] = np.array([x, np.full_like(x, np.nan)])
             touching = np.abs(angle - 180.0) > 12.0
-            for key in SERIES:
+            for key in (*SERIES, "torque_drive"):
                 row = np.where(touching, 5e-5 if key == "half_width" else 2e-7, 0.0)
                 group[key] = np.array([row, np.full_like(row, np.nan)])
             pressure = 5e8 * np.sqrt(np.clip(1 - x**2, 0, None)) * touching[:, None]
@@ -67,3 +67,27 @@ def test_an_angle_outside_of_the_turn_is_refused(path, tmp_path, capsys, angle):
 def test_the_end_of_the_turn_is_its_beginning():
     angles = np.arange(0.0, 360.0, 5.0)
     assert [ehl.nearest(angles, angle) for angle in (0.0, 4.0, 358.0, 360.0)] == [0, 1, 0, 0]
+
+
+def swept(path, speed):
+    """The file with a speed for its cases."""
+    with h5py.File(path, "a") as file:
+        file["sweep/operating_point.speed_rpm"] = np.array([speed, speed])
+        file["series/cam_angle"] = file["ehl/angle"][:]
+        file["series/sliding_speed"] = file["ehl/sliding_speed"][:]
+    return path
+
+
+def test_a_run_of_another_point_is_refused(path, tmp_path, capsys):
+    beside = tmp_path / "run.h5"
+    beside.write_bytes(path.read_bytes())
+    arguments = [str(swept(path, 300.0)), str(swept(beside, 900.0)), "--output", str(tmp_path / "a.png")]
+    assert ehl.main(arguments) == 2 and "300" in (told := capsys.readouterr().err) and "900" in told
+    assert not list(tmp_path.glob("*.png"))
+
+
+def test_slip_of_profiles_is_called_that_of_their_run(path):
+    data = ehl.read(path, 0)[""]
+    for names, words in (({"torque_drive"}, "of the run"), (set(), "solved contact")):
+        figure = ehl.draw({name: values for name, values in data.items() if name not in names}, None, [180.0], "")
+        assert words in [line.get_label() for axis in figure.axes for line in axis.lines]

@@ -31,6 +31,8 @@ def test_files_that_do_not_belong_together_are_refused():
     heated, cold = made_up()
     with pytest.raises(ResultError, match="no contacts with heat"):
         film_heat.rows(cold, cold)
+    with pytest.raises(ResultError, match="different values of speed_rpm"):
+        film_heat.rows(heated, cold | {"speed_rpm": np.array([300.0, 900.0])})
     cold["film_central"] = cold["film_central"][:1]
     with pytest.raises(ResultError, match="different cases"):
         film_heat.rows(heated, cold)

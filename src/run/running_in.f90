@@ -447,12 +447,14 @@ contains
          call append_quantity(list, "time", "s", "running time", "running_in", time)
          call append_quantity(list, "largest_cam_film", "m", "largest thickness of the tribofilm on the cam", "running_in", &
             & maxval(surface%cam_film))
-         call append_quantity(list, "mean_cam_film", "m", "its mean over the cam angle", "running_in", sum(surface%cam_film)/n)
+         call append_quantity(list, "mean_cam_film", "m", "thickness of the tribofilm on the cam, mean over the cam angle", &
+            & "running_in", sum(surface%cam_film)/n)
          call append_quantity(list, "roller_film", "m", "thickness of the tribofilm on the roller", "running_in", &
             & surface%roller_film)
          call append_quantity(list, "largest_cam_wear", "m", "largest depth worn away from the cam", "running_in", &
             & maxval(surface%cam_wear))
-         call append_quantity(list, "mean_cam_wear", "m", "its mean over the cam angle", "running_in", sum(surface%cam_wear)/n)
+         call append_quantity(list, "mean_cam_wear", "m", "depth worn away from the cam, mean over the cam angle", "running_in", &
+            & sum(surface%cam_wear)/n)
          call append_quantity(list, "roller_wear", "m", "depth worn away from the roller", "running_in", surface%roller_wear)
          call append_quantity(list, "mean_friction_torque", "N m", "friction torque of the follower, mean over the turn", &
             & "running_in", means(1))

@@ -1,7 +1,9 @@
 """The result file as other programs see it, and what is left where it cannot be written."""
 
+import fnmatch
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -210,3 +212,51 @@ def test_a_killed_run_leaves_the_earlier_file(camroller, tmp_path):
         running.kill()
     assert running.returncode == -signal.SIGKILL, "it ended before it could be killed"
     assert target.read_bytes() == EARLIER_RESULT
+
+
+def rows_of_page():
+    """Patterns of paths and their axes, in the order of the page: the first that fits a dataset is its row."""
+    lines = (ROOT / "doc/result_file.md").read_text(encoding="utf-8").splitlines()
+    for line in lines:
+        if line.startswith("| `/"):
+            paths, axes = (cell.strip() for cell in line.split("|")[1:3])
+            for path in re.findall(r"`(/[^`]*)`", paths):
+                yield path, tuple(axes.split(", ")) if axes != "-" else None
+
+
+def axes_of(data):
+    """Names of the dimensions."""
+    if data.is_scale:
+        return (data.name.rpartition("/")[2],)
+    return tuple(dimension[0].name.rpartition("/")[2] if len(dimension) else "-" for dimension in data.dims)
+
+
+def test_page_of_the_result_file_has_every_dataset_with_its_axes(camroller, tmp_path):
+    table = tmp_path / "points.txt"
+    table.write_text('operating_point.speed_rpm "measured.torque [N m]"\n300 1\n900 -\n')
+    profiles = tmp_path / "profiles.nml"
+    profiles.write_text((ROOT / "decks/heated_contact.nml").read_text() + "\n&ehl\n   profiles = .true.\n/\n")
+    measured = tmp_path / "measured.nml"
+    text = (ROOT / "decks/thesis.nml").read_text()
+    measured.write_text(text[:text.index("&sweep")] + "&sweep\n   kind = 'table'\n   table = 'points.txt'\n/\n")
+    commands = [("run", ROOT / "decks/tribofilm.nml", "--set", "sweep.values_1=900"), ("run", measured), ("ehl", ROOT / "decks/three_cam_head.nml", "--set", "sweep.values_1=1500", "--set", "sweep.count_2=2"),
+                ("run", ROOT / "decks/lash_adjuster.nml", "--set", "sweep.values_1=2350"),
+                ("run", ROOT / "decks/tabulated_lift.nml", "--set", "mechanism.contact_width_mm=0.2"),
+                ("run", profiles, "--set", "sweep.values_1=900", "--set", "sweep.values_2=25", "--set", "output.angle_step_deg=10"),
+                ("run", ROOT / "decks/four_cylinder.nml", "--point", "speed_rpm=2000"),
+                ("run", DECK, "--set", "sweep.values_1=300,3000", "--set", "sweep.values_2=95", "--set", "case.contact_policy=stop")]
+    rows = list(rows_of_page())
+    unused = {path for path, _ in rows}
+    for number, (command, deck, *options) in enumerate(commands):
+        target = tmp_path / f"{number}.h5"
+        subprocess.run([camroller, command, deck, "-o", target, "--quiet", *options], stdin=subprocess.DEVNULL, capture_output=True, check=False)
+        with h5py.File(target) as file:
+            for name, data in objects(file).items():
+                if isinstance(data, h5py.Dataset):
+                    path, axes = next(row for row in rows if fnmatch.fnmatchcase("/" + name, row[0]))
+                    assert axes is None or axes_of(data) == axes, name
+                    unused.discard(path)
+                    if path.endswith("/*") and axes:
+                        assert {"units", "long_name"} <= set(data.attrs), name
+                        assert not data.attrs["long_name"].startswith("its"), name
+    assert not unused
