@@ -30,7 +30,7 @@ module camroller_ehl_record
       real(wp), allocatable :: values(:, :)
    end type ehl_record_t
 
-   !> Number of quantities of a cycle of solved contacts, and of profiles at the load and slip of a run: without torques, which would
+   !> Number of quantities of a cycle of solved contacts, and of profiles at load and slip of a run: without torques, which would
    !> be of neither
    integer, parameter :: cycle_count = 21, profile_count = 17
 

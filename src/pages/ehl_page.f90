@@ -27,7 +27,7 @@ module camroller_ehl_page
       logical :: has_steady = .false.
       !> Time [s]
       real(wp) :: time = 0.0_wp
-      !> Mean over the angles with a solved contact of what `compared` names, integrated and by the closed formula [m], [m], [N], [N]
+      !> Means over the angles with a solved contact of what `compared` names, integrated and by the formula [m], [m], [N], [N]
       real(wp) :: friction(size(compared), 2) = 0.0_wp
    contains
       procedure :: set_friction
