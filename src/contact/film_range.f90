@@ -10,7 +10,7 @@ module camroller_film_range
    implicit none
    private
 
-   public :: film_range_t, group_names, note_film, matters, range_in_words, distance_outside
+   public :: film_range_t, group_names, note_film, matters, outside_words, range_in_words, distance_outside
 
    !> Part of the friction loss that a film outside of its law's range may have on the base circle without a word [-]
    real(wp), parameter :: small_part = 0.01_wp
@@ -60,6 +60,17 @@ contains
 
       verdict = range%share > 0.0_wp .and. (range%event_share > 0.0_wp .or. range%outside_loss > small_part*range%loss)
    end function matters
+
+   !> What a film outside of its range is outside of.
+   pure function outside_words(law) result(words)
+      !> Position of the law in `film_law_names`
+      integer, intent(in) :: law
+      !> The beginning of a sentence, with blanks at its end
+      character(len=56) :: words
+
+      words = "the film law is outside its published range"
+      if (law == law_table) words = "the film is beyond the table of solved contacts"
+   end function outside_words
 
    !> How far the groups are outside: the sum over them of the logarithm of the factor between one and its bound.
    pure function distance_outside(range, law) result(distance)

@@ -11,7 +11,7 @@ module camroller_cycle_remarks
    use camroller_cycle, only : cycle_t
    use camroller_events, only : contact_losses
    use camroller_film, only : law_masjedi_khonsari_rough
-   use camroller_film_range, only : distance_outside, matters, range_in_words
+   use camroller_film_range, only : distance_outside, matters, outside_words, range_in_words
    use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : margins_t
@@ -359,7 +359,7 @@ contains
          & 100.0_wp*statistics%backward_share)
       if (statistics%film_range%share <= 0.0_wp) return
       call range_in_words(statistics%film_range, model%film_law, words)
-      text = "the film law is outside its published range for "
+      text = trim(outside_words(model%film_law))//" for "
       call append_number(text, 100.0_wp*statistics%film_range%share, 3)
       text = text//" % of the cycle"
       if (statistics%film_range%share < all_of_it) then

@@ -11,7 +11,7 @@ module camroller_step_judge
    use camroller_cycle, only : cycle_t, state_at
    use camroller_engine, only : write_speed
    use camroller_film, only : group_count, group_values, groups_t, is_in_range, law_table, published_range
-   use camroller_film_range, only : group_names
+   use camroller_film_range, only : group_names, outside_words
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number
    use camroller_ramp, only : follow_ramp
@@ -79,7 +79,7 @@ contains
       else if (model%stops_outside_range) then
          groups = film_groups(model, state%position, state%contact)
          is_forbidden = .not. is_in_range(model%film_law, groups, model%film_table)
-         if (is_forbidden) text = "the film law is outside its published range at "
+         if (is_forbidden) text = trim(outside_words(model%film_law))//" at "
       end if
       if (.not. is_forbidden) return
       call append_cam_angle(text, angle, 3)

@@ -328,6 +328,12 @@ def test_profiles_of_a_run_have_no_torques_and_say_what_is_not_in_them(camroller
         assert "traction" in file["ehl"] and not {"torque_drive", "energy_residual"} & set(file["ehl"])
 
 
+def test_a_film_beyond_its_table_is_not_one_outside_a_published_range(camroller, tmp_path):
+    (tmp_path / "deck.nml").write_text((ROOT / "decks/hard/light_base_circle_load.nml").read_text() + "\n&ehl\n/\n")
+    result = run(camroller, "run", "deck.nml", "-o", "run.h5", "--set", "film.range_policy=stop", folder=tmp_path)
+    assert result.returncode == 4 and "the film is beyond the table of solved contacts for 6" in result.stderr
+
+
 def test_friction_that_nearly_lifts_the_roller_off_ends_with_words(camroller, tmp_path):
     """The last step to the balance took more than all of the load there, and its root was no number."""
     deck = ROOT / "test/data/lifted_roller/deck.nml"
