@@ -270,8 +270,8 @@ contains
       call evaluate_geometry(model, places(2), position, status)
       passage = 2.0_wp*cycle%moments(k)%length_scale/(abs(position%surface_travel) - &
          & 0.5_wp*cycle%moments(k)%sliding_speed/model%speed)
-      ! 0.75 of the passage, since the inlet makes the film before the dry contact begins to count and the smallest film is before its
-      ! end; with half or twice the oil that a film stores it would be 0.38 or 1.5
+      ! 0.75 of the passage: the inlet makes the film before the dry contact begins, and the smallest film lies before its end. With
+      ! half or twice the oil that a film stores it would be 0.38 or 1.5
       associate (delay => (places(1) - places(2))/passage)
          call check(error, delay > 0.5_wp .and. delay < 1.0_wp, "delay")
       end associate
