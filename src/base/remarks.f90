@@ -54,7 +54,7 @@ module camroller_remarks
       & "slices too narrow", "rigid train would vibrate", "slip is creep", "check valve stays shut", "adjuster's chamber empty", &
       & "shear of a rigid contact", "limit of a liquid film", "roller turns backwards", "speed below those of a law", &
       & "tribofilm without asperities", "oil beside the dry contact", "lash taken by the seat", &
-      & "group left out of solved contacts", "film of a light load not solved"]
+      & "group left out of contacts", "film of a light load not solved"]
 
    !> One remark
    type :: remark_t

@@ -128,13 +128,13 @@ contains
          history(1) = now
          scale = max(scale, abs(now%sliding_speed))
          known = min(known + 1, 3)
-         if (now%angle > start - angle_tolerance) call keep(cycle, state, now, options%keeps_profiles)
+         if (now%angle > start - angle_tolerance) call keep(cycle, march%grid%size, state, now, options%keeps_profiles)
          if (now%angle >= start + two_pi - angle_tolerance) then
             if (is_periodic(cycle%moments, options%step_error) .or. cycle%turns >= most_turns) exit
             cycle%turns = cycle%turns + 1
             call begin_again(cycle)
             history%angle = history%angle - two_pi
-            call keep(cycle, state, history(1), options%keeps_profiles)
+            call keep(cycle, march%grid%size, state, history(1), options%keeps_profiles)
          end if
          step = step*min(most_growth, safety*max(excess, 1.0e-6_wp)**(-1.0_wp/3.0_wp))
          if (any(abs(stops - now%angle) <= angle_tolerance)) step = min(step, step_after(now%angle, stops))
@@ -348,10 +348,12 @@ contains
    end function step_excess
 
    !> Keep a moment of the cycle.
-   subroutine keep(cycle, state, now, keeps_profiles)
+   subroutine keep(cycle, nodes, state, now, keeps_profiles)
       !> The cycle
       type(ehl_cycle_t), intent(inout) :: cycle
-      !> The solution
+      !> Nodes of a profile
+      integer, intent(in) :: nodes
+      !> The solution, where there has been a film
       type(ehl_state_t), intent(in) :: state
       !> The moment
       type(moment_t), intent(in) :: now
@@ -361,13 +363,12 @@ contains
       type(moment_t) :: lean
       ! Profiles with one more [Pa], [m]
       real(wp), allocatable :: pressure(:, :), film(:, :)
-      integer :: count, nodes
+      integer :: count
 
       lean = now
       if (allocated(lean%mass)) deallocate (lean%mass)
       cycle%moments = [cycle%moments, lean]
       if (.not. keeps_profiles) return
-      nodes = size(state%total)
       count = size(cycle%moments)
       allocate (pressure(nodes, count), film(nodes, count), source=0.0_wp)
       if (allocated(cycle%pressure)) then

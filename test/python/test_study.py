@@ -1,6 +1,7 @@
 """The command `study` from outside: table, file, failures."""
 
 import pathlib
+import re
 import subprocess
 
 import h5py
@@ -37,10 +38,11 @@ def done(camroller, tmp_path_factory):
 
 
 def test_turns_of_a_longer_period_are_not_compared(camroller, tmp_path):
-    """Two ways may end with different turns: their distance is no error of integration."""
+    """Two ways may end with different turns: their distance is no error of integration. Round-off decides whether the turns agree with
+    those two or four before first: a period of two is about to double here."""
     result = study(camroller, ROOT / "decks/lash_adjuster.nml", *QUICK, "--set", "sweep.values_1=1840", folder=tmp_path)
     assert result.returncode != 0
-    assert "no reference: the motion of the train repeats after 2 cycles only" in result.stderr
+    assert re.search("no reference: the motion of the train repeats after [24] cycles only", result.stderr)
 
 
 @pytest.mark.parametrize("words", [["--quick", "--repeats", "1", "--set", "output.angle_step_deg=20"], ["--laws"]])
