@@ -3,7 +3,8 @@
 !> In: model, tolerance. Out: `flexible_cycle_t` with the last cycle, from full lift of one turn less half a turn on. Plain cycles
 !> approach the periodic state by the slowest decay of spring and adjuster, or drift towards it; Anderson's acceleration
 !> extrapolates from the last few, but for turns that alternate: there a period of two may be near. An adjuster that leaks down is
-!> moved on by many turns at once; none is put beyond its upper stop. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
+!> moved on by many turns at once; one that climbs is not put back, and none beyond its upper stop. Source: Walker and Ni, SIAM J.
+!> Numer. Anal. 49 (2011) 1715.
 module camroller_flexible_cycle
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -184,7 +185,7 @@ contains
          history%kept = 0
       else if (is_slow .and. history%kept >= least_kept) then
          call put_on_stop(turn, aim)
-         has_moved = may_stand(turn, state, aim) .and. is_possible(turn, aim)
+         has_moved = may_stand(turn, leak, state, aim) .and. is_possible(turn, aim)
          if (has_moved) then
             state = aim*turn%scales
          else

@@ -1,6 +1,7 @@
 !> Starts of turns that are not the end of one: where may a train be moved on to?
 !>
-!> In: the last turns. Out: another state, and whether it may be one. An adjuster that leaks down is moved on by many turns at once.
+!> In: the last turns. Out: another state, and whether it may be one. An adjuster that leaks down is moved on by many turns at once;
+!> one that climbs is never put back.
 module camroller_flexible_moves
    use camroller_kinds, only : wp
    use camroller_flexible_train, only : at_plunger
@@ -12,13 +13,16 @@ module camroller_flexible_moves
 
    !> Turns in which a plunger has to fall before it is moved on
    integer, parameter :: leaking_turns = 8
-   !> Its mean fall over their root mean square: trains without a period seldom have as much by chance [-]
-   real(wp), parameter :: steady_fall = 0.7_wp
+   !> Turns from which on it is seen to climb
+   integer, parameter :: climbing_turns = 3
+   !> Mean change of its place in a turn over their root mean square, from which on it moves one way: trains without a period seldom
+   !> have as much by chance [-]
+   real(wp), parameter :: steady = 0.7_wp
    !> Turns by which it is moved on, the next time by twice as many; where that is too many the check valve fills the adjuster
    !> within a turn [-]
    real(wp), parameter :: jumped_turns = 32.0_wp
 
-   !> The last turns of an adjuster that may be leaking down
+   !> The last turns of an adjuster that may be leaking down or climbing
    type :: leak_t
       !> How many there are
       integer :: turns = 0
@@ -54,7 +58,7 @@ contains
       leak%turns = leak%turns + 1
       if (leak%turns < leaking_turns) return
       change = sum(leak%changes, 2)/leaking_turns
-      if (change(at_plunger) > -steady_fall*norm2(leak%changes(at_plunger, :))/sqrt(real(leaking_turns, wp))) return
+      if (change(at_plunger) > -steady*norm2(leak%changes(at_plunger, :))/sqrt(real(leaking_turns, wp))) return
       aim = state/turn%scales + leak%jump*change
       call put_on_stop(turn, aim)
       leak%turns = 0
@@ -63,6 +67,20 @@ contains
       leak%jump = 2.0_wp*leak%jump
       has_jumped = .true.
    end subroutine jump_leak
+
+   !> Does the plunger rise turn after turn?
+   pure function climbs(leak) result(verdict)
+      !> The last turns, where there is an adjuster
+      type(leak_t), intent(in) :: leak
+      !> Does it?
+      logical :: verdict
+
+      verdict = .false.
+      associate (n => min(leak%turns, leaking_turns))
+         if (n < climbing_turns) return
+         verdict = sum(leak%changes(at_plunger, :n))/n > steady*norm2(leak%changes(at_plunger, :n))/sqrt(real(n, wp))
+      end associate
+   end function climbs
 
    !> Put a plunger that a mixture of states has far below its lower stop on it: the stop would throw it back with more than all
    !> forces of a train.
@@ -82,19 +100,26 @@ contains
    end subroutine put_on_stop
 
    !> May a plunger stand where extrapolation puts it? Not farther beyond its upper stop than a turn has left it: it would press the
-   !> stop with oil that no turn has brought in, and which takes thousands of turns to leak out.
-   pure function may_stand(turn, ending, aim) result(verdict)
+   !> stop with oil that no turn has brought in, and which takes thousands of turns to leak out. Where it climbs it pumps up, and
+   !> would have to climb again from below; and it may come half as near to the stop at most, of which turns below it tell nothing.
+   pure function may_stand(turn, leak, ending, aim) result(verdict)
       !> What integrates
       type(turn_t), intent(in) :: turn
+      !> The last turns
+      type(leak_t), intent(in) :: leak
       !> End of the turn [state]; what is extrapolated, in units of the scales [-]
       real(wp), intent(in) :: ending(:), aim(:)
       !> May it?
       logical :: verdict
 
+      real(wp) :: place ! Of the plunger [m]
+
       verdict = .true.
       if (.not. allocated(turn%problem%model%flexible%adjuster)) return
-      associate (highest => turn%problem%model%flexible%adjuster%given%highest)
-         verdict = turn%scales(at_plunger)*aim(at_plunger) <= max(highest, ending(at_plunger))
+      place = turn%scales(at_plunger)*aim(at_plunger)
+      associate (highest => turn%problem%model%flexible%adjuster%given%highest, present => ending(at_plunger))
+         verdict = place <= max(highest, present)
+         if (climbs(leak)) verdict = place >= present .and. place <= 0.5_wp*(present + highest)
       end associate
    end function may_stand
 
