@@ -3,8 +3,7 @@
 !> In: model, tolerance. Out: `flexible_cycle_t` with the last cycle, from full lift of one turn less half a turn on. Plain cycles
 !> approach the periodic state by the slowest decay of spring and adjuster, or drift towards it; Anderson's acceleration
 !> extrapolates from the last few, but for turns that alternate: there a period of two may be near. An adjuster that leaks down is
-!> moved on by many turns at once; one that climbs is not put back, and none beyond its upper stop. Source: Walker and Ni, SIAM J.
-!> Numer. Anal. 49 (2011) 1715.
+!> moved on by many turns at once; one that climbs is not put back. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
 module camroller_flexible_cycle
    use camroller_kinds, only : wp
    use camroller_error, only : error_t

@@ -70,7 +70,7 @@ contains
 
    !> Does the plunger rise turn after turn?
    pure function climbs(leak) result(verdict)
-      !> The last turns, where there is an adjuster
+      !> The last turns; none where there is no adjuster
       type(leak_t), intent(in) :: leak
       !> Does it?
       logical :: verdict
@@ -99,9 +99,9 @@ contains
       end associate
    end subroutine put_on_stop
 
-   !> May a plunger stand where extrapolation puts it? Not farther beyond its upper stop than a turn has left it: it would press the
-   !> stop with oil that no turn has brought in, and which takes thousands of turns to leak out. Where it climbs it pumps up, and
-   !> would have to climb again from below; and it may come half as near to the stop at most, of which turns below it tell nothing.
+   !> May a plunger stand where extrapolation puts it? Where it climbs it pumps up, and would have to climb again from below; and it
+   !> may come half as near to its upper stop at most, of which turns below it tell nothing: beyond, it would press the stop with
+   !> oil that no turn has brought in, and which takes thousands of turns to leak out.
    pure function may_stand(turn, leak, ending, aim) result(verdict)
       !> What integrates
       type(turn_t), intent(in) :: turn
@@ -115,11 +115,10 @@ contains
       real(wp) :: place ! Of the plunger [m]
 
       verdict = .true.
-      if (.not. allocated(turn%problem%model%flexible%adjuster)) return
+      if (.not. climbs(leak)) return
       place = turn%scales(at_plunger)*aim(at_plunger)
       associate (highest => turn%problem%model%flexible%adjuster%given%highest, present => ending(at_plunger))
-         verdict = place <= max(highest, present)
-         if (climbs(leak)) verdict = place >= present .and. place <= 0.5_wp*(present + highest)
+         verdict = place >= present .and. place <= 0.5_wp*(present + highest)
       end associate
    end function may_stand
 
