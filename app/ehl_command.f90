@@ -20,7 +20,7 @@ module camroller_ehl_command
    use camroller_ehl_file, only : ehl_file_t, open_ehl, write_ehl, close_ehl
    use camroller_ehl_page, only : ehl_line_t, write_friction, write_head, write_line
    use camroller_ehl_profiles, only : judge_light, plain_model
-   use camroller_ehl_record, only : ehl_record_t, cycle_count, keep_nodes, make_ehl_record
+   use camroller_ehl_record, only : ehl_record_t, cycle_quantities, keep_nodes, make_ehl_record
    use camroller_ehl_summary, only : make_ehl_summary
    use camroller_events, only : contact_losses, cycle_stops, find_stops
    use camroller_layout, only : layout_t
@@ -73,7 +73,7 @@ contains
       call make_sweep_case(deck, 1, case, error)
       if (.not. allocated(error)) call open_cases(writer, path, deck, facts, output_options_t(), .false., error)
       if (.not. allocated(error)) call open_ehl(file, writer%file, merge(2, 1, allocated(case%second_lift)), angle_count, &
-         & fewest_nodes, cycle_count, .false., error)
+         & fewest_nodes, cycle_quantities, .false., error)
       if (allocated(error)) return
       call solve_cases(deck, config%is_quiet, writer, file, lines, unheard, error)
       call close_ehl(file)
@@ -182,7 +182,7 @@ contains
       call integrate_converged(cycle, model, line%coarse, line%fine, options, error)
       if (allocated(error)) return
       line%steps = size(cycle%angle)
-      call make_ehl_record(record, model, cycle, cycle_count)
+      call make_ehl_record(record, model, cycle, cycle_quantities)
       call judge_light(record, remarks)
       call keep_nodes(record, fewest_nodes)
       call line%set_friction(record)

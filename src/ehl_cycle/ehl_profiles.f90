@@ -10,7 +10,7 @@ module camroller_ehl_profiles
    use camroller_dynamics, only : moments_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, prepare_march
    use camroller_ehl_newton, only : ehl_state_t
-   use camroller_ehl_record, only : column, ehl_record_t, make_ehl_record, profile_count
+   use camroller_ehl_record, only : column, ehl_record_t, make_ehl_record, profile_quantities
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_step, only : ehl_march_t, lost_part, moment_t, find_film, spin_excess
    use camroller_ehl_summary, only : mean_over_cycle
@@ -78,7 +78,7 @@ contains
       if (.not. allocated(error)) call steady_contacts(cycle, model, result%angle*degree - pi, &
          & result%series_values(:, find_quantity(result%series, "contact_load")), &
          & result%series_values(:, find_quantity(result%series, "sliding_speed")), error)
-      if (.not. allocated(error)) call make_ehl_record(record, model, cycle, profile_count)
+      if (.not. allocated(error)) call make_ehl_record(record, model, cycle, profile_quantities)
    end subroutine make_profiles
 
    !> A remark where solved contacts have no film under a load: it is below the part of the largest from which films are solved.

@@ -17,7 +17,7 @@ module camroller_ehl_record
    implicit none
    private
 
-   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, keep_nodes, column, cycle_count, profile_count
+   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, keep_nodes, column, cycle_quantities, profile_quantities
 
    !> Pressure, film and quantities of a cycle
    type :: ehl_record_t
@@ -32,20 +32,20 @@ module camroller_ehl_record
 
    !> Number of quantities of a cycle of solved contacts, and of profiles at load and slip of a run: without torques, which would
    !> be of neither
-   integer, parameter :: cycle_count = 21, profile_count = 17
+   integer, parameter :: cycle_quantities = 21, profile_quantities = 17
 
 contains
 
    !> The quantities of a record.
    subroutine list_ehl_quantities(count, list)
-      !> How many it has, `cycle_count` or `profile_count`
+      !> How many it has, `cycle_quantities` or `profile_quantities`
       integer, intent(in) :: count
       !> The list
       type(quantity_t), allocatable, intent(out) :: list(:)
 
       integer :: n
 
-      allocate (list(cycle_count))
+      allocate (list(cycle_quantities))
       n = 0
       call add("half_width", "m", "length unit of the node positions")
       call add("load", "N", "contact load")
@@ -93,7 +93,7 @@ contains
       type(model_t), intent(in) :: model
       !> The cycle, with or without profiles
       type(ehl_cycle_t), intent(in) :: cycle
-      !> Number of quantities, `cycle_count` or `profile_count`
+      !> Number of quantities, `cycle_quantities` or `profile_quantities`
       integer, intent(in) :: count
 
       type(state_t) :: state
@@ -107,7 +107,7 @@ contains
          record%film = cycle%film
          if (allocated(cycle%film_rise)) record%film_rise = cycle%film_rise
       end if
-      allocate (record%values(size(cycle%angle), cycle_count))
+      allocate (record%values(size(cycle%angle), cycle_quantities))
       do i = 1, size(cycle%angle)
          call solved_state(model, cycle%moments(i), state)
          call closed_contact(model, cycle%moments(i), state, closed)
@@ -220,7 +220,7 @@ contains
 
       type(quantity_t), allocatable :: list(:)
 
-      call list_ehl_quantities(cycle_count, list)
+      call list_ehl_quantities(cycle_quantities, list)
       values = record%values(:, find_quantity(list, name))
    end function column
 

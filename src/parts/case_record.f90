@@ -5,7 +5,7 @@
 !> number of cases and their layout, then the cases one after the other.
 module camroller_case_record
    use camroller_kinds, only : wp
-   use camroller_ehl_record, only : ehl_record_t, profile_count
+   use camroller_ehl_record, only : ehl_record_t, profile_quantities
    use camroller_error, only : error_t
    use camroller_layout, only : layout_t
    use camroller_remarks, only : remark_t, remark_lines
@@ -120,7 +120,7 @@ contains
       call put_integer(record, merge(1, 0, allocated(profiles%film_rise)))
       call put_numbers(record, profiles%angle)
       call put_numbers(record, profiles%nodes)
-      do i = 1, profile_count
+      do i = 1, profile_quantities
          call put_numbers(record, profiles%values(:, i))
       end do
       do i = 1, size(profiles%angle)
@@ -240,12 +240,12 @@ contains
       integer :: i, has_rise
 
       call take_integer(record, has_rise)
-      allocate (profiles%angle(angles), profiles%nodes(nodes), profiles%values(angles, profile_count))
+      allocate (profiles%angle(angles), profiles%nodes(nodes), profiles%values(angles, profile_quantities))
       allocate (profiles%pressure(nodes, angles), profiles%film(nodes, angles))
       if (has_rise > 0) allocate (profiles%film_rise(nodes, angles))
       call take_numbers(record, profiles%angle)
       call take_numbers(record, profiles%nodes)
-      do i = 1, profile_count
+      do i = 1, profile_quantities
          call take_numbers(record, profiles%values(:, i))
       end do
       do i = 1, angles

@@ -7,7 +7,7 @@ module camroller_study_trial
    use camroller_case, only : case_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_profiles, only : plain_model
-   use camroller_ehl_record, only : ehl_record_t, column, cycle_count, make_ehl_record
+   use camroller_ehl_record, only : ehl_record_t, column, cycle_quantities, make_ehl_record
    use camroller_ehl_summary, only : mean_over_cycle
    use camroller_model, only : model_t
    use camroller_case_result, only : output_angles
@@ -141,7 +141,7 @@ contains
          return
       end if
       trial%time = median(times(:min(run, size(times))))
-      call make_ehl_record(record, model, cycle, cycle_count)
+      call make_ehl_record(record, model, cycle, cycle_quantities)
       trial%sliding_speed = at_angles(output_angles(case%numerics%output_step)*two_pi/360.0_wp, &
          & modulo(record%angle + 0.5_wp*two_pi, two_pi), column(record, "sliding_speed"))
       trial%mean_friction = mean_over_cycle(record%angle, column(record, "torque_friction"))

@@ -6,7 +6,7 @@ module test_ehl_record
    use camroller_case, only : case_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_profiles, only : make_profiles, plain_model
-   use camroller_ehl_record, only : ehl_record_t, column, cycle_count, make_ehl_record
+   use camroller_ehl_record, only : ehl_record_t, column, cycle_quantities, make_ehl_record
    use camroller_ehl_table, only : ehl_t
    use camroller_model, only : model_t
    use camroller_result, only : result_t, get_series
@@ -44,7 +44,7 @@ contains
       if (.not. allocated(failure)) call integrate_ehl_cycle(cycle, model, ehl_cycle_options_t(nodes=65, &
          & step_error=1.0e-2_wp, keeps_profiles=.true.), failure)
       call expect_success(error, failure)
-      if (.not. allocated(error)) call make_ehl_record(record, model, cycle, cycle_count)
+      if (.not. allocated(error)) call make_ehl_record(record, model, cycle, cycle_quantities)
    end subroutine solve
 
    subroutine test_energy(error)

@@ -5,7 +5,7 @@ module ehl_checks
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
-   use camroller_ehl_record, only : ehl_record_t, column, cycle_count, make_ehl_record
+   use camroller_ehl_record, only : ehl_record_t, column, cycle_quantities, make_ehl_record
    use camroller_ehl_summary, only : ehl_summary_t, make_ehl_summary, mean_over_cycle
    use camroller_model, only : model_t
    implicit none
@@ -58,7 +58,7 @@ contains
       if (allocated(failure)) return
       facts%steps = size(cycle%angle)
       if (present(summary)) summary = make_ehl_summary(model, cycle)
-      call make_ehl_record(record, model, cycle, cycle_count)
+      call make_ehl_record(record, model, cycle, cycle_quantities)
       film = column(record, "film_min")
       slip = column(record, "sliding_speed")
       power = maxval(abs(column(record, "torque_drive")))*model%speed
