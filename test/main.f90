@@ -16,6 +16,7 @@ program main
    use test_dual, only : collect_dual
    use test_needle_drag, only : collect_needle_drag
    use test_pin_film, only : collect_pin_film
+   use test_skf_bearing, only : collect_skf_bearing
    use test_joints, only : collect_joints
    use test_joint_spikes, only : collect_joint_spikes
    use test_ehl_heat, only : collect_ehl_heat
@@ -217,6 +218,7 @@ contains
          new_testsuite("dual", collect_dual), &
          new_testsuite("needle_drag", collect_needle_drag), &
          new_testsuite("pin_film", collect_pin_film), &
+         new_testsuite("skf_bearing", collect_skf_bearing), &
          new_testsuite("joints", collect_joints), &
          new_testsuite("joint_spikes", collect_joint_spikes), &
          new_testsuite("ehl_heat", collect_ehl_heat), &

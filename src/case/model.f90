@@ -222,7 +222,8 @@ contains
       if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
       if (allocated(model%joints)) call set_joint_oil(model%joints, model%oil%viscosity)
       if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
-      if (allocated(model%bearing)) call set_bearing_oil(model%bearing, model%oil%viscosity)
+      if (allocated(model%bearing)) call set_bearing_oil(model%bearing, model%oil%viscosity, &
+         & density_at(model%lubricant, oil_temperature))
       if (allocated(model%drag)) call set_drag_oil(model%drag, model%oil%viscosity/density_at(model%lubricant, oil_temperature))
       if (allocated(model%heat)) call set_heat_oil(model%heat, model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return

@@ -54,9 +54,11 @@ module camroller_key_uses
       key_use_t("lubricant.sae_grade", "temperature_law", "data_sheet"), &
       key_use_t("lubricant.density_kg_m3", "temperature_law", density_laws), &
       key_use_t("lubricant.density_kg_m3", "&needle_drag"), &
+      key_use_t("lubricant.density_kg_m3", "needle_bearing.kind", "needles_skf"), &
       key_use_t("lubricant.density_kg_m3", "&bearing_heat"), &
       key_use_t("lubricant.thermal_expansion_per_K", "temperature_law", density_laws), &
       key_use_t("lubricant.thermal_expansion_per_K", "&needle_drag"), &
+      key_use_t("lubricant.thermal_expansion_per_K", "needle_bearing.kind", "needles_skf"), &
       key_use_t("lubricant.thermal_expansion_per_K", "&bearing_heat"), &
       key_use_t("lubricant.roelands_index", "pressure_viscosity_coefficient_per_GPa", not_given), &
       key_use_t("film.law", "&ehl", not_given), &
@@ -76,7 +78,12 @@ module camroller_key_uses
       key_use_t("boundary_law.speed_points_m_s", "law", "table"), &
       key_use_t("boundary_law.temperature_points_degC", "law", "table"), &
       key_use_t("boundary_law.coefficient_points", "law", "table"), &
-      key_use_t("needle_bearing.needle_radius_mm", "kind", "needles"), &
+      key_use_t("needle_bearing.needle_radius_mm", "kind", "needles needles_skf"), &
+      key_use_t("needle_bearing.skf_rolling_factor", "kind", "needles_skf"), &
+      key_use_t("needle_bearing.skf_sliding_factor", "kind", "needles_skf"), &
+      key_use_t("needle_bearing.skf_geometry_factor", "kind", "needles_skf"), &
+      key_use_t("needle_bearing.skf_replenishment_factor", "kind", "needles_skf"), &
+      key_use_t("needle_bearing.skf_film_coefficient", "kind", "needles_skf"), &
       key_use_t("needle_bearing.pin_law", "kind", "journal"), &
       key_use_t("needle_bearing.pin_width_mm", "kind", "journal"), &
       key_use_t("needle_bearing.pin_radial_clearance_um", "kind", "journal"), &

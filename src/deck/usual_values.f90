@@ -113,6 +113,11 @@ module camroller_usual_values
       usual_t("running_in.duration_h", 1.0e-3_wp, 1.0e4_wp), &
       usual_t("needle_bearing.friction_coefficient", 0.0_wp, 0.3_wp), &
       usual_t("needle_bearing.needle_radius_mm", 0.3_wp, 5.0_wp), &
+      usual_t("needle_bearing.skf_rolling_factor", 2.0e-7_wp, 1.0e-5_wp), &
+      usual_t("needle_bearing.skf_sliding_factor", 1.0e-4_wp, 0.01_wp), &
+      usual_t("needle_bearing.skf_geometry_factor", 3.0_wp, 12.0_wp), &
+      usual_t("needle_bearing.skf_replenishment_factor", 1.0e-8_wp, 1.0e-7_wp), &
+      usual_t("needle_bearing.skf_film_coefficient", 0.001_wp, 0.1_wp), &
       usual_t("needle_bearing.pin_width_mm", 2.0_wp, 25.0_wp), &
       usual_t("needle_bearing.pin_radial_clearance_um", 5.0_wp, 100.0_wp), &
       usual_t("needle_bearing.pin_roughness_um", 0.02_wp, 3.0_wp), &

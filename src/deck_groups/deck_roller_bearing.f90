@@ -10,7 +10,7 @@ module camroller_deck_roller_bearing
    use camroller_journal, only : law_covers_width, width_advice
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
-   use camroller_needle, only : needle_bearing_t, kind_journal, kind_needles, roller_bearing_names
+   use camroller_needle, only : needle_bearing_t, has_needles, kind_journal, kind_skf, roller_bearing_names
    use camroller_pin_film, only : pin_law_names
    use camroller_settings, only : settings_t, get_word, has_group, is_known, is_wrong, take
    implicit none
@@ -31,14 +31,26 @@ contains
 
       call add_group(schema, group, group_effect, "bearing between roller and pin")
       call add_name(schema, "kind", roller_bearing_names, standard%kind, &
-         & "needle bearing, plain pin with a constant coefficient, or plain pin with an oil film and asperities, a journal bearing")
+         & "needle bearing with a constant coefficient or by SKF's model, plain pin with a constant coefficient, or plain "// &
+         & "pin with an oil film and asperities, a journal bearing")
       call add_number(schema, "friction_coefficient", not_negative, &
-         & "friction coefficient; kind 'journal': of touching asperities", &
+         & "friction coefficient; kind 'journal': of touching asperities; kind 'needles_skf': mu_bl, of sliding without a film", &
          & example="0.0015")
       call add_number(schema, "needle_radius_mm", positive, "radius of a needle", example="0.99", &
          & is_optional=.true.)
       call add_number(schema, "reversal_ratio", proper_fraction, &
          & "fraction of the cam's speed within which the bearing torque changes its sign smoothly", default=standard%reversal_ratio)
+      call add_number(schema, "skf_rolling_factor", positive, &
+         & "R_1 of the bearing's kind, of its rolling torque, in SKF's units", example="2.13e-6", is_optional=.true.)
+      call add_number(schema, "skf_sliding_factor", positive, &
+         & "S_2 of the bearing's kind, of its sliding torque by radial load, in SKF's units", example="0.0015", &
+         & is_optional=.true.)
+      call add_number(schema, "skf_geometry_factor", positive, "K_Z of the bearing's kind, of the oil's return", example="6.2", &
+         & is_optional=.true.)
+      call add_number(schema, "skf_replenishment_factor", not_negative, &
+         & "K_rs of the lubrication: 3e-8 for an oil jet or a low bath, 6e-8 for oil mist", default=standard%skf%replenishment)
+      call add_number(schema, "skf_film_coefficient", not_negative, "mu_EHL, friction coefficient of sliding under a whole film", &
+         & default=standard%skf%film_coefficient)
       call add_name(schema, "pin_law", pin_law_names, standard%film%law, "law of the pin's film")
       call add_number(schema, "pin_width_mm", positive, "width of roller and pin where they face each other", &
          & is_optional=.true.)
@@ -68,6 +80,11 @@ contains
          call take(settings, group, "friction_coefficient", bearing%friction_coefficient)
          call take(settings, group, "needle_radius_mm", bearing%needle_radius)
          call take(settings, group, "reversal_ratio", bearing%reversal_ratio)
+         call take(settings, group, "skf_rolling_factor", bearing%skf%rolling)
+         call take(settings, group, "skf_sliding_factor", bearing%skf%sliding)
+         call take(settings, group, "skf_geometry_factor", bearing%skf%geometry)
+         call take(settings, group, "skf_replenishment_factor", bearing%skf%replenishment)
+         call take(settings, group, "skf_film_coefficient", bearing%skf%film_coefficient)
          call take(settings, group, "pin_law", bearing%film%law)
          call take(settings, group, "pin_width_mm", bearing%film%width)
          call take(settings, group, "pin_radial_clearance_um", bearing%film%radial_clearance)
@@ -78,8 +95,8 @@ contains
       end associate
    end subroutine fill_roller_bearing
 
-   !> Rules: the ring's wall is thinner than its radius, needles fit between it and a pin, and a pin with a film has what that
-   !> needs.
+   !> Rules: the ring's wall is thinner than its radius, needles fit between it and a pin, and a bearing whose torque is not in
+   !> proportion to its load has what that needs.
    subroutine check_roller_bearing(settings, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -101,11 +118,12 @@ contains
       end if
       if (.not. has_group(settings, group)) return
       kind = get_word(settings, group, "kind")
+      if (any(kind == roller_bearing_names([kind_journal, kind_skf]))) call check_company(settings, kind, mistakes)
       if (kind == roller_bearing_names(kind_journal)) call check_pin(settings, radius - wall, mistakes)
-      if (kind /= roller_bearing_names(kind_needles)) return
+      if (.not. has_needles(kind)) return
       if (is_wrong(settings, group, "needle_radius_mm")) return
       if (.not. is_known(settings, group, "needle_radius_mm")) then
-         call complain(mistakes, settings, group, "kind", "kind 'needles' needs 'needle_radius_mm'")
+         call complain(mistakes, settings, group, "kind", "kind '"//kind//"' needs 'needle_radius_mm'")
          return
       end if
       call take(settings, group, "needle_radius_mm", needle)
@@ -115,8 +133,38 @@ contains
          & "no pin is left between the needles")
    end subroutine check_roller_bearing
 
-   !> A pin with a film has its numbers, a width that its law covers, surfaces that are apart in the middle, and no company that it
-   !> is not combined with.
+   !> A bearing whose torque is not in proportion to its load has its numbers, and no company that it is not combined with.
+   subroutine check_company(settings, kind, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Kind of the bearing, one of these
+      character(len=*), intent(in) :: kind
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      character(len=*), parameter :: pin_numbers(*) = [character(len=23) :: "pin_width_mm", "pin_radial_clearance_um", &
+         & "pin_roughness_um", "pin_modulus_GPa"]
+      character(len=*), parameter :: skf_numbers(*) = [character(len=23) :: "skf_rolling_factor", "skf_sliding_factor", &
+         & "skf_geometry_factor"]
+      character(len=*), parameter :: others(*) = [character(len=11) :: "dynamics", "ehl", "needle_drag"]
+      character(len=:), allocatable :: numbers(:)
+      integer :: i
+
+      do i = 1, size(others)
+         if (has_group(settings, trim(others(i)))) call complain(mistakes, settings, group, "kind", &
+            & "kind '"//kind//"' is not combined with the group &"//trim(others(i)))
+      end do
+      if (kind == roller_bearing_names(kind_journal)) then
+         numbers = pin_numbers
+      else
+         numbers = skf_numbers
+      end if
+      do i = 1, size(numbers)
+         call demand(settings, group, trim(numbers(i)), "kind '"//kind//"'", mistakes)
+      end do
+   end subroutine check_company
+
+   !> A pin with a film has a width that its law covers and surfaces that are apart in the middle.
    subroutine check_pin(settings, radius, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -125,20 +173,9 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      character(len=*), parameter :: numbers(*) = [character(len=23) :: "pin_width_mm", "pin_radial_clearance_um", &
-         & "pin_roughness_um", "pin_modulus_GPa"]
-      character(len=*), parameter :: others(*) = [character(len=11) :: "dynamics", "ehl", "needle_drag"]
       ! Width, clearance, roughness [m]
       real(wp) :: width, clearance, roughness
-      integer :: i
 
-      do i = 1, size(others)
-         if (has_group(settings, trim(others(i)))) call complain(mistakes, settings, group, "kind", &
-            & "kind 'journal' is not combined with the group &"//trim(others(i)))
-      end do
-      do i = 1, size(numbers)
-         call demand(settings, group, trim(numbers(i)), "kind 'journal'", mistakes)
-      end do
       if (is_known(settings, group, "pin_width_mm")) then
          call take(settings, group, "pin_width_mm", width)
          if (.not. law_covers_width(get_word(settings, group, "pin_law"), width, 2.0_wp*radius)) call complain(mistakes, settings, &

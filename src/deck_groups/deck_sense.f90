@@ -7,7 +7,7 @@ module camroller_deck_sense
    use camroller_deck_engine, only : strokes_of
    use camroller_engine, only : from_firing
    use camroller_text_lines, only : add_line, line_t
-   use camroller_needle, only : kind_needles, roller_bearing_names
+   use camroller_needle, only : has_needles
    use camroller_number_text, only : counted, integer_text, number_text
    use camroller_oil_data, only : smallest_indexed, viscosity_at_40
    use camroller_settings, only : get_word, has_group, is_known, settings_t, take
@@ -106,7 +106,7 @@ contains
 
       if (.not. has_group(settings, "needle_drag")) return
       if (has_group(settings, "needle_bearing") .and. .not. any(left_out == "needle_bearing.kind")) then
-         if (get_word(settings, "needle_bearing", "kind") /= roller_bearing_names(kind_needles)) then
+         if (.not. has_needles(get_word(settings, "needle_bearing", "kind"))) then
             call add_line(remarks, "&needle_drag is the oil's drag on needles, and needle_bearing.kind is '"// &
                & get_word(settings, "needle_bearing", "kind")//"'")
             return

@@ -14,7 +14,7 @@ module camroller_contact
    use camroller_joint_forces, only : find_contact_moment, has_pivot_friction, joint_basis_t
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, &
-      & evaluate_contact, follow_contact, has_pin_film, release_contact
+      & evaluate_contact, follow_contact, has_curved_bearing, release_contact
    implicit none
    private
 
@@ -290,7 +290,7 @@ contains
       contact%boundary_mobilised = contact%boundary_capacity*basis%setting%mobilised
       contact%traction = contact%shear + contact%boundary_mobilised
       contact%tangential_force = contact%traction + contact%rolling_resistance*basis%parts%rolling_part
-      if (has_pin_film(model)) contact%bearing_torque = contact%bearing_torque + slopes%bearing_torque*shift
+      if (has_curved_bearing(model)) contact%bearing_torque = contact%bearing_torque + slopes%bearing_torque*shift
       call rebalance(model, position, moment, basis%setting, hinge, contact)
       ! Where friction nearly lifts the roller off, what these derivatives leave out may be more than the load
       if (.not. contact%load > 0.0_wp) return
@@ -310,7 +310,7 @@ contains
          & + basis%parts%boundary%by_temperature*slopes%flash_rise*shift
    end subroutine shift_contact
 
-   !> Load that balances the forces which a contact has, and the torque of a bearing without a film, which goes with it: one step,
+   !> Load that balances the forces which a contact has, and the torque of a bearing that is in proportion to it: one step,
    !> so small that it is exact, so that no energy is lost between them.
    pure subroutine rebalance(model, position, moment, setting, hinge, contact)
       !> The model
@@ -331,15 +331,15 @@ contains
       real(wp) :: arm, excess, slope
 
       arm = setting%bearing_arm
-      if (has_pin_film(model)) arm = 0.0_wp
-      if (.not. has_pin_film(model)) contact%bearing_torque = arm*contact%load + contact%bearing_drag
+      if (has_curved_bearing(model)) arm = 0.0_wp
+      if (.not. has_curved_bearing(model)) contact%bearing_torque = arm*contact%load + contact%bearing_drag
       held%tangential_force = 0.0_wp
       excess = contact%load*position%normal_arm - moment &
          & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
       slope = contact%load*(position%normal_arm + model%linkage%sense*arm)
       if (has_pivot_friction(model)) call take_pivot(model, hinge, contact, held, excess, slope)
       contact%load = contact%load*(1.0_wp - excess/slope)
-      if (.not. has_pin_film(model)) contact%bearing_torque = arm*contact%load + contact%bearing_drag
+      if (.not. has_curved_bearing(model)) contact%bearing_torque = arm*contact%load + contact%bearing_drag
    end subroutine rebalance
 
 end module camroller_contact

@@ -15,14 +15,14 @@ module camroller_contact_forces
    use camroller_load_share, only : share_change_t, share_load, improve_share, share_change
    use camroller_traction, only : mobilised_share, sliding_direction, rolling_resistance, resistance_speed_slope, &
       & resistance_length_slope, rolling_biboulet_houpert, line_lengths_t, same_lengths
-   use camroller_needle, only : bearing_torque, bearing_torque_slope
+   use camroller_needle, only : bearing_torque, bearing_torque_slope, loaded_torque
    use camroller_needle_drag, only : drag_torque, drag_torque_slope
-   use camroller_pin_film, only : pin_state_t, solve_pin, unloaded_torque
+   use camroller_pin_film, only : unloaded_torque
    implicit none
    private
 
    public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, start_heat, prepare_contact, evaluate_contact, &
-      & follow_contact, release_contact, film_groups, set_surfaces, has_pin_film, has_oil_drag, oil_drag_slope, bearing_slope
+      & follow_contact, release_contact, film_groups, set_surfaces, has_curved_bearing, has_oil_drag, oil_drag_slope, bearing_slope
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
    !> error left, times a factor of a few [-]
@@ -68,6 +68,17 @@ contains
       if (has) has = allocated(model%bearing%film)
    end function has_pin_film
 
+   !> Are torque and load of the roller's bearing not in proportion?
+   pure function has_curved_bearing(model) result(has)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Are they not?
+      logical :: has
+
+      has = allocated(model%bearing)
+      if (has) has = allocated(model%bearing%film) .or. allocated(model%bearing%skf)
+   end function has_curved_bearing
+
    !> Does the oil in the roller's bearing hold the roller without load too?
    pure function has_oil_drag(model) result(has)
       !> The model
@@ -101,11 +112,11 @@ contains
       !> Derivative [N m s/rad]
       real(wp) :: slope
 
-      type(pin_state_t) :: pin
+      ! Torque and its derivative over the logarithm of the load [N m]
+      real(wp) :: torque, by_load
 
-      if (allocated(model%bearing%film)) then
-         call solve_pin(model%bearing%film, load, spin, model%bearing%reversal_spin, pin)
-         slope = pin%by_spin
+      if (has_curved_bearing(model)) then
+         call loaded_torque(model%bearing, load, spin, torque, by_load, slope)
       else
          slope = bearing_torque_slope(model%bearing%friction_coefficient, load, model%bearing%radius, spin, &
             & model%bearing%reversal_spin)
@@ -266,25 +277,24 @@ contains
       parts%rolling_part = 2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp
       contact%tangential_force = contact%traction + contact%rolling_resistance*parts%rolling_part
       contact%bearing_torque = setting%bearing_arm*load + contact%bearing_drag
-      if (has_pin_film(model)) call load_pin(model, contact, parts)
+      if (has_curved_bearing(model)) call load_bearing(model, contact, parts)
    end subroutine evaluate_contact
 
-   !> Torque of a pin with an oil film under the load.
-   pure subroutine load_pin(model, contact, parts)
-      !> The model, with such a pin
+   !> Torque of a bearing where it is not in proportion to the load.
+   pure subroutine load_bearing(model, contact, parts)
+      !> The model, with such a bearing
       type(model_t), intent(in) :: model
       !> State of the contact
       type(contact_t), intent(inout) :: contact
       !> Gets the slopes
       type(parts_t), intent(inout) :: parts
 
-      type(pin_state_t) :: pin
+      ! Torque of the load [N m]
+      real(wp) :: torque
 
-      call solve_pin(model%bearing%film, contact%load, contact%relative_spin, model%bearing%reversal_spin, pin)
-      contact%bearing_torque = pin%torque + contact%bearing_drag
-      parts%pin_by_load = pin%by_load
-      parts%pin_by_spin = pin%by_spin
-   end subroutine load_pin
+      call loaded_torque(model%bearing, contact%load, contact%relative_spin, torque, parts%bearing_by_load, parts%bearing_by_spin)
+      contact%bearing_torque = torque + contact%bearing_drag
+   end subroutine load_bearing
 
    !> Factor on both films by heat in the inlet.
    pure subroutine set_inlet_factor(model, position, contact, setting, parts)
@@ -354,9 +364,9 @@ contains
       slopes%bearing_torque = (contact%bearing_torque - contact%bearing_drag)*motion%load
       if (allocated(model%drag)) slopes%bearing_torque = slopes%bearing_torque &
          & + motion%relative_spin*drag_torque_slope(model%drag, contact%relative_spin)
-      if (has_pin_film(model)) then
-         slopes%bearing_torque = parts%pin_by_load*motion%load &
-            & + (parts%pin_by_spin + oil_drag_slope(model, contact%relative_spin))*motion%relative_spin
+      if (has_curved_bearing(model)) then
+         slopes%bearing_torque = parts%bearing_by_load*motion%load &
+            & + (parts%bearing_by_spin + oil_drag_slope(model, contact%relative_spin))*motion%relative_spin
       else if (allocated(model%bearing) .and. abs(motion%relative_spin) > 0.0_wp) then
          slopes%bearing_torque = slopes%bearing_torque + motion%relative_spin*bearing_torque_slope( &
             & model%bearing%friction_coefficient, contact%load, model%bearing%radius, contact%relative_spin, &

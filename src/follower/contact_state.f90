@@ -120,7 +120,7 @@ module camroller_contact_state
       !> 2 R/r_R - 1 [-]
       real(wp) :: rolling_part
       !> Derivatives of the torque of a pin with a film over ln(load) [N m] and spin [N m s/rad], less that without load
-      real(wp) :: pin_by_load = 0.0_wp, pin_by_spin = 0.0_wp
+      real(wp) :: bearing_by_load = 0.0_wp, bearing_by_spin = 0.0_wp
    end type parts_t
 
    !> A direction in which a contact may move

@@ -12,7 +12,7 @@ module camroller_spin
    use camroller_ramp, only : follow_ramp
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_contact_forces, only : contact_t, bearing_slope, has_oil_drag, oil_drag_slope
+   use camroller_contact_forces, only : contact_t, bearing_slope, has_curved_bearing, has_oil_drag, oil_drag_slope
    use camroller_state, only : evaluate_loading, evaluate_spin
    use camroller_spin_slopes, only : spin_slopes_t, evaluate_spin_slopes
    implicit none
@@ -266,15 +266,15 @@ contains
    end subroutine linearise
 
    !> Does what changing inputs add to the derivative take a difference of two solutions? That of the speed alone has a closed form
-   !> where the roller's bearing has no drag and no joint has friction.
+   !> where the torque of the roller's bearing is in proportion to its load and no joint has friction.
    pure function needs_difference(model) result(needs)
       !> The model
       type(model_t), intent(in) :: model
       !> Does it?
       logical :: needs
 
-      needs = model%ramp%is_moving .and. (abs(model%ramp%temperature_slope) > 0.0_wp .or. has_oil_drag(model) &
-         & .or. allocated(model%joints))
+      needs = model%ramp%is_moving .and. (abs(model%ramp%temperature_slope) > 0.0_wp .or. allocated(model%drag) &
+         & .or. has_curved_bearing(model) .or. allocated(model%joints))
    end function needs_difference
 
    !> Keep a contact that has been solved.

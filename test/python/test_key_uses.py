@@ -32,6 +32,9 @@ VALUES = {
     "needle_bearing.pin_radial_clearance_um": "25", "needle_bearing.pin_roughness_um": "0.4",
     "needle_bearing.pin_modulus_GPa": "170", "needle_bearing.pin_roughness_product": "0.05",
     "needle_bearing.pin_roughness_over_tip_radius": "0.02",
+    "needle_bearing.skf_rolling_factor": "2e-6", "needle_bearing.skf_sliding_factor": "0.002",
+    "needle_bearing.skf_geometry_factor": "5", "needle_bearing.skf_replenishment_factor": "6e-8",
+    "needle_bearing.skf_film_coefficient": "0.03",
     **{f"{group}.{key}": value for group in ("valve_tip", "guide_side_load", "finger_pivot") for key, value in
        (("decay_speed_m_s", "0.4"), ("viscous_part_s_m", "0.02"), ("reference_viscosity_Pa_s", "0.02"), ("reference_load_N", "200"))},
     "stem_seal.reference_viscosity_Pa_s": "0.02", "cam_bearings.cam_cylinders": None,
@@ -56,6 +59,7 @@ POWER = "lift.max_lift_mm lift.opening_half_angle_deg lift.exponents"
 POINTS = "lubricant.temperature_points_degC lubricant.viscosity_points_Pa_s"
 SHEET = "lubricant.viscosity_at_100_degC_mm2_s lubricant.density_kg_m3 lubricant.thermal_expansion_per_K"
 NEEDLES = "needle_bearing.needle_radius_mm"
+SKF = " ".join(key for key in VALUES if key.startswith("needle_bearing.skf"))
 PINS = " ".join(key for key in VALUES if key.startswith("needle_bearing.pin"))
 GAS = "&gas_force table = 'cylinder_pressure.txt' valve_diameter_mm = 28 /\n"
 CURVES = " ".join(key for key in VALUES if re.match("valve_tip|guide_side_load|finger_pivot", key))
@@ -104,6 +108,10 @@ SCENES = {
         "coefficient_points = 0.11, 0.12, 0.1, 0.11 /\n",
         [BOUNDARY, POWER, POINTS, NEEDLES, SPEEDS, "roller_profile.design_load_N roller_profile.end_drop_um",
          "numerics.step_deg numerics.periodicity"]),
+    "needles by SKF's model": (
+        ["needle_bearing.kind=needles_skf", "needle_bearing.friction_coefficient=0.12", "needle_bearing.skf_rolling_factor=2.13e-6",
+         "needle_bearing.skf_sliding_factor=0.0015", "needle_bearing.skf_geometry_factor=6.2"], "",
+        [BOUNDARY, POWER, POINTS, NEEDLES, SKF, "lubricant.density_kg_m3 lubricant.thermal_expansion_per_K"]),
     "gas on the valves of two lobe shapes": (
         ["cam_bearings.cam_lobes=1, 2", "cam_bearings.cam_positions_mm=20, 40", "cam_bearings.cam_phases_deg=0, 100"],
         GAS + "&second_lift max_lift_mm = 9 opening_half_angle_deg = 70 exponents = 4 /\n",

@@ -13,7 +13,7 @@ module test_contact
    use camroller_torque_list, only : of_contact
    use closeness, only : check_close, check_scaled
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, add_heat, &
-      add_pin_film, add_profile, point_speeds, point_viscosities
+      add_pin_film, add_profile, add_skf_needles, point_speeds, point_viscosities
    implicit none
    private
 
@@ -74,11 +74,12 @@ contains
       real(wp), allocatable :: sizes(:), errors(:)
       integer :: kind, i, speed, other, status
 
-      do kind = 1, 4
+      do kind = 1, 5
          case = skewed_case(rotation_names(1))
          if (kind == 2) call add_heat(case)
          if (kind == 3) call add_profile(case)
          if (kind == 4) call add_pin_film(case, "finite")
+         if (kind == 5) call add_skf_needles(case)
          call make_model(case, model, error)
          if (allocated(error)) return
          sizes = [(0.0_wp, i=1, 16)]

@@ -15,7 +15,7 @@ module test_spin_slopes
    use closeness, only : check_scaled
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_boundary_law, add_gas_force, &
-      & add_joints, add_heat, add_pin_film, add_profile, point_speeds, point_viscosities
+      & add_joints, add_heat, add_pin_film, add_profile, add_skf_needles, point_speeds, point_viscosities
    implicit none
    private
 
@@ -50,6 +50,7 @@ contains
          new_unittest("slopes with a law of the boundary coefficient, with and without heat", test_with_boundary_law), &
          new_unittest("slopes with a tribofilm whose thickness changes over the cam", test_with_tribofilm), &
          new_unittest("slopes with an oil film on the roller's pin, for both of its laws", test_with_pin_film), &
+         new_unittest("slopes with needles by SKF's model", test_with_skf_needles), &
          new_unittest("slopes with a given fraction of the boundary friction, as in sliding and sticking", test_given_share), &
          new_unittest("slopes without contact are those of the kinematics", test_no_contact) &
          ]
@@ -323,6 +324,23 @@ contains
          end do
       end do
    end subroutine test_with_pin_film
+
+   subroutine test_with_skf_needles(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: point
+
+      do point = 1, 3
+         case = skewed_case(rotation_names(1 + mod(point, 2)))
+         call add_skf_needles(case)
+         call set_point(case, point_speeds(point), point_viscosities(1 + mod(point, 3)))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "needles by SKF's model")
+         if (allocated(error)) return
+      end do
+   end subroutine test_with_skf_needles
 
    subroutine test_source(error)
       type(error_type), allocatable, intent(out) :: error

@@ -37,6 +37,9 @@ contains
       if (allocated(case%lubricant%pressure_viscosity_points)) deallocate (case%lubricant%pressure_viscosity_points)
       if (allocated(case%ehl)) deallocate (case%ehl)
       if (allocated(case%needle_drag)) deallocate (case%needle_drag)
+      if (allocated(case%needle_bearing)) then
+         if (case%needle_bearing%kind == "needles_skf") case%needle_bearing%kind = "needles"
+      end if
       if (allocated(case%heat)) then
          if (.not. case%heat%viscosity_fall > 0.0_wp) case%heat%viscosity_fall = 0.04_wp
       end if

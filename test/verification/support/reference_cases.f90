@@ -14,7 +14,7 @@ module reference_cases
    private
 
    public :: thesis_case, source_case, skewed_case, named_case, make_model, make_cycle, set_point, add_gas_force, add_joints, &
-      & add_boundary_law, add_heat, add_pin_film, add_profile
+      & add_boundary_law, add_heat, add_pin_film, add_skf_needles, add_profile
    public :: point_speeds, point_viscosities
 
    !> Speeds of the nine operating points [rad/s]
@@ -224,6 +224,18 @@ contains
          bearing%film%modulus = 110.0e9_wp
       end associate
    end subroutine add_pin_film
+
+   !> Needles by SKF's model, with the constants of full complements of cylindrical rollers.
+   subroutine add_skf_needles(the_case)
+      !> The case, with needles
+      type(case_t), intent(inout) :: the_case
+
+      the_case%needle_bearing%kind = "needles_skf"
+      the_case%needle_bearing%friction_coefficient = 0.12_wp
+      the_case%needle_bearing%skf%rolling = 2.13e-6_wp
+      the_case%needle_bearing%skf%sliding = 0.0015_wp
+      the_case%needle_bearing%skf%geometry = 6.2_wp
+   end subroutine add_skf_needles
 
    !> Boundary friction that follows sliding speed and temperature, or a table of both.
    subroutine add_boundary_law(the_case, law)

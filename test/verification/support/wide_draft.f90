@@ -160,7 +160,8 @@ contains
       if (group == "friction_modifier" .or. group == "boundary_law" .or. group == "wear") may_have = index(text, "&asperity") > 0
       if (group == "tribofilm") may_have = index(text, "&asperity") > 0
       if (group == "running_in") may_have = index(text, "&tribofilm") > 0
-      if (group == "needle_drag") may_have = .not. draft%has_dynamics .and. deck_word(text, "needle_bearing", "kind") /= "journal"
+      if (group == "needle_drag") may_have = .not. draft%has_dynamics .and. all(deck_word(text, "needle_bearing", "kind") &
+         & /= [character(len=11) :: "journal", "needles_skf"])
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
    end function may_have
 
@@ -229,6 +230,25 @@ contains
       if (any(key == logarithmic_keys)) is_given = law == "logarithmic"
    end function is_of_boundary_law
 
+   !> Whether a key of &needle_bearing is given: what its kind cannot do without is.
+   pure function is_of_bearing(kind, key, is_wanted) result(is_given)
+      !> Kind of the bearing, name of the key
+      character(len=*), intent(in) :: kind, key
+      !> Is the key wanted?
+      logical, intent(in) :: is_wanted
+      logical :: is_given
+
+      is_given = is_wanted
+      select case (key)
+      case ("needle_radius_mm")
+         is_given = is_given .or. index(kind, "needles") > 0
+      case ("skf_rolling_factor", "skf_sliding_factor", "skf_geometry_factor")
+         is_given = is_given .or. kind == "needles_skf"
+      case ("pin_width_mm", "pin_radial_clearance_um", "pin_roughness_um", "pin_modulus_GPa")
+         is_given = is_given .or. kind == "journal"
+      end select
+   end function is_of_bearing
+
    !> Which keys go together.
    pure subroutine keep_rules(draft, text, group, key, is_given)
       !> What is decided
@@ -245,6 +265,7 @@ contains
       if (group == "lubricant") call keep_oil_rules(draft, text, key, is_given)
       if (group == "lift" .or. group == "second_lift") call keep_lift_rules(law, key, is_given)
       if (group == "boundary_law") is_given = is_of_boundary_law(law, key, is_given)
+      if (group == "needle_bearing") is_given = is_of_bearing(deck_word(text, group, "kind"), key, is_given)
       if (key == "limiting_stress_MPa") is_given = is_given .and. deck_word(text, group, "limit") == "local"
       select case (key)
       case ("table")
@@ -275,8 +296,6 @@ contains
          is_given = is_given .or. deck_word(text, group, "shear_law") == "eyring"
       case ("crown_radius_mm", "design_load_N")
          is_given = deck_word(text, group, "profile") == merge("crowned    ", "logarithmic", key == "crown_radius_mm")
-      case ("needle_radius_mm", "pin_width_mm", "pin_radial_clearance_um", "pin_roughness_um", "pin_modulus_GPa")
-         is_given = is_given .or. deck_word(text, group, "kind") == merge("needles", "journal", key == "needle_radius_mm")
       case ("grinding_wheel_radius_mm", "tolerance")
          is_given = is_given .and. (draft%is_first .neqv. key == "tolerance")
       case ("cam_cylinders")
@@ -375,7 +394,8 @@ contains
       case ("journal_motion")
          is_allowed = words == key%default .or. index(" short_ocvirk finite ", " "//deck_word(text, "cam_bearings", "law")//" ") > 0
       case ("kind")
-         is_allowed = words /= "'journal'" .or. .not. (draft%has_dynamics .or. index(text, "&ehl") > 0)
+         is_allowed = all(words /= [character(len=13) :: "'journal'", "'needles_skf'"]) .or. &
+            & .not. (draft%has_dynamics .or. index(text, "&ehl") > 0)
       case ("sae_grade")
          is_allowed = words == key%default .neqv. draft%oil_by == oil_by_grade
       case ("energy", "mobilisation")

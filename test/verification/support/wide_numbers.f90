@@ -120,6 +120,11 @@ module wide_numbers
       & usual_t("needle_bearing.friction_coefficient", 1.0e-4_wp, 0.1_wp, .true.), &
       & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 1.45_wp), &
       & usual_t("needle_bearing.reversal_ratio", 1.0e-4_wp, 0.5_wp, .true.), &
+      & usual_t("needle_bearing.skf_rolling_factor", 5.0e-7_wp, 5.0e-6_wp, .true.), &
+      & usual_t("needle_bearing.skf_sliding_factor", 5.0e-4_wp, 5.0e-3_wp, .true.), &
+      & usual_t("needle_bearing.skf_geometry_factor", 4.0_wp, 8.0_wp), &
+      & usual_t("needle_bearing.skf_replenishment_factor", 1.0e-8_wp, 6.0e-8_wp, .true.), &
+      & usual_t("needle_bearing.skf_film_coefficient", 0.005_wp, 0.05_wp, .true.), &
       & usual_t("needle_bearing.pin_width_mm", 4.0_wp, 9.0_wp), &
       & usual_t("needle_bearing.pin_radial_clearance_um", 10.0_wp, 60.0_wp, .true.), &
       & usual_t("needle_bearing.pin_roughness_um", 0.02_wp, 1.0_wp, .true.), &
