@@ -4,6 +4,7 @@
 !> The angles follow from the bearing at one temperature and serve for others near it: loads are then not found again.
 module camroller_bearing_means
    use camroller_kinds, only : wp, degree, two_pi
+   use camroller_accuracy, only : quadrature_part
    use camroller_bearing_asperity, only : bearing_state_t, carry_load
    use camroller_bearing_heat, only : oil_flow
    use camroller_case, only : case_t
@@ -16,7 +17,7 @@ module camroller_bearing_means
    implicit none
    private
 
-   public :: bearing_turn_t, choose_angles, mean_of_turn
+   public :: bearing_turn_t, choose_angles, mean_accuracy, mean_of_turn
 
    !> One bearing over the turn
    type :: bearing_turn_t
@@ -24,8 +25,7 @@ module camroller_bearing_means
       real(wp), allocatable :: stops(:)
       !> Sense in which the shaft turns, 1 from the first axis of the load to the second, or -1 [-]
       real(wp) :: rotation = 1.0_wp
-      !> Error allowed: of an orbit in a step, over the smallest film of the turn; of means of torque and flow, over the means; of
-      !> the rise of temperature, over a kelvin, which changes viscosity and torque by some per cent [-]
+      !> Error allowed of an orbit in a step, over the smallest film of the turn [-]
       real(wp) :: accuracy = 0.0_wp
       !> Ends of the pieces of the turn in a mean, shape (end, piece) [rad]; allocated once they are chosen
       real(wp), allocatable :: ends(:, :)
@@ -54,7 +54,7 @@ module camroller_bearing_means
    !> Halvings of such pieces, at most
    integer, parameter :: most_halvings = 1000
    !> Least error aimed at, of a mean over the mean and of a rise over a kelvin: below it rounding counts [-]
-   real(wp), parameter, public :: least_error = 1.0e-10_wp
+   real(wp), parameter :: least_error = 1.0e-10_wp
    !> What to say where a load cannot be found
    character(len=*), parameter :: no_load = "camshaft bearings: the load has no value at some angle of the turn"
 
@@ -98,7 +98,7 @@ contains
          call sample_panel(panels, means, ends(1, piece), ends(2, piece), error)
          if (allocated(error)) return
       end do
-      allowed = max(max(turn%accuracy, least_error)*sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp))
+      allowed = max(mean_accuracy(turn)*sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp))
       halvings = most_halvings
       call refine_panels(panels, means, allowed, halvings, error)
       if (allocated(error)) return
@@ -107,6 +107,17 @@ contains
       turn%ends = reshape([panels%left(:panels%count), panels%right(:panels%count)], [2, panels%count], order=[2, 1])
       call take_loads(load, turn, error)
    end subroutine choose_angles
+
+   !> Error allowed: of means of torque and flow, over the means; of the rise of temperature, over a kelvin, which changes viscosity
+   !> and torque by some per cent [-].
+   pure function mean_accuracy(turn) result(error)
+      !> The bearing
+      type(bearing_turn_t), intent(in) :: turn
+      !> The error
+      real(wp) :: error
+
+      error = max(quadrature_part*turn%accuracy, least_error)
+   end function mean_accuracy
 
    !> Pieces of the turn between its stops, none longer than the longest.
    pure function pieces_between(stops) result(ends)

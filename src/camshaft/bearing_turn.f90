@@ -8,7 +8,7 @@
 module camroller_bearing_turn
    use camroller_kinds, only : wp
    use camroller_bearing_heat, only : bearing_heat_t, check_bearing_heat, direct_advice, temperature_rise
-   use camroller_bearing_means, only : bearing_turn_t, choose_angles, least_error, mean_of_turn
+   use camroller_bearing_means, only : bearing_turn_t, choose_angles, mean_accuracy, mean_of_turn
    use camroller_case, only : case_t
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
    use camroller_journal, only : new_journal
@@ -209,7 +209,7 @@ contains
       ! Error of the rise allowed [K]
       real(wp) :: tolerance
 
-      tolerance = max(turn%accuracy, least_error)
+      tolerance = mean_accuracy(turn)
       call try_rise(0.0_wp, low)
       if (allocated(error)) return
       first = 0.0_wp

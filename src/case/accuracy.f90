@@ -17,7 +17,7 @@ module camroller_accuracy
 
    public :: check_numerics, is_within, above_zero, divides_turn, resolve_numerics, first_numerics, has_error_control, is_checked, &
       & has_tolerance, refine_tolerance, way_out, most_refinements, second_method, far_beyond, evaluations_allowed, &
-      & largest_accuracy, largest_periodicity, largest_step
+      & largest_accuracy, largest_periodicity, largest_step, quadrature_part
 
    !> Method with the least work for errors from 1e-2 to 1e-8, or near it
    character(len=*), parameter :: chosen_method = "hermite"
@@ -26,6 +26,8 @@ module camroller_accuracy
    !> Tolerance over accuracy: errors of the sliding speed stay within twice the tolerance with the chosen method, but extremes and
    !> means of steep forces are estimated at up to a hundred times it [-]
    real(wp), parameter :: tolerance_share = 0.01_wp
+   !> Error of a mean over the tolerance of its cycle, for a whole cycle [-]: a twentieth of the accuracy
+   real(wp), parameter :: quadrature_part = 15.0_wp
    !> Tolerance of the first try of a rigid train's result over that: a seventh more steps spare most cases a second try, which
    !> costs as much as the first [-]
    real(wp), parameter :: first_part = 0.3_wp

@@ -4,6 +4,7 @@
 !> a turn to the tolerance of the cycles, with an estimate of their error; rows of the series at the angles evaluated; with these
 !> the smallest and largest values, between the angles met as well, with the largest of their errors in the statistics.
 module camroller_camshaft_statistics
+   use camroller_accuracy, only : quadrature_part
    use camroller_kinds, only : degree, two_pi, wp
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
@@ -15,7 +16,7 @@ module camroller_camshaft_statistics
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
    use camroller_lobe_curve, only : cam_values, contact_near, curve_points, curve_values, telling_points
-   use camroller_means, only : mean_tolerance, most_halvings, quadrature_part, statistics_t
+   use camroller_means, only : mean_tolerance, most_halvings, statistics_t
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_part_series, only : bearing_count, bearing_series_count, load_part
    use camroller_result, only : quantity_t, find_quantity

@@ -9,6 +9,7 @@
 module camroller_means
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
+   use camroller_accuracy, only : quadrature_part
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
@@ -81,8 +82,6 @@ module camroller_means
    integer, parameter, public :: most_halvings = 1000
    !> Times that what is allowed is taken anew from means that have become better
    integer, parameter :: most_passes = 5
-   !> Error of a mean over the tolerance of its cycle, for a whole cycle [-]: a twentieth of the accuracy
-   real(wp), parameter, public :: quadrature_part = 15.0_wp
    !> Least tolerance of a mean: below it rounding counts [-]
    real(wp), parameter :: least_tolerance = 1.0e-10_wp
 
