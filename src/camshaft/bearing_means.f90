@@ -113,7 +113,7 @@ contains
    pure function mean_accuracy(turn) result(error)
       !> The bearing
       type(bearing_turn_t), intent(in) :: turn
-      !> The error
+      !> The error [-]
       real(wp) :: error
 
       error = max(quadrature_part*turn%accuracy, least_error)

@@ -10,6 +10,7 @@ module camroller_series_extremes
    use camroller_sampled_extremes, only : samples_t, search_t, add_sample, beside_jump, narrow_search, start_search
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
+   use camroller_lift, only : is_at_rest
    use camroller_lobe_curve, only : contact_near, lobe_curve_t
    use camroller_margins, only : margins_t
    use camroller_means, only : find_thickest_film, has_film_limit, statistics_t
@@ -300,7 +301,8 @@ contains
       if (value_error <= rounding*abs(value)) value_error = 0.0_wp
    end subroutine search_series
 
-   !> Rows of the event, with the valve off its seat; all where it never leaves it.
+   !> Rows of the event, with the valve off its seat; all where it never leaves it. Beside a stop the lift of a rigid train may be
+   !> nothing but rounding, whether the valve moves or not.
    pure function in_event(model, series, samples)
       !> Model of the lobe
       type(model_t), intent(in) :: model
@@ -312,9 +314,17 @@ contains
 
       ! Part of the lift at the seat that counts as all of it at a stop [-]
       real(wp), parameter :: nearly = 1.0_wp - 1.0e-9_wp
+      integer :: i
 
       associate (lift => samples%values(find_quantity(series, "valve_lift"), :samples%count))
-         in_event = lift > 0.0_wp .and. lift >= nearly*model%train%seat_lift
+         if (allocated(model%flexible)) then
+            in_event = lift > 0.0_wp
+         else
+            ! An end of the event is no part of it: a force may jump there
+            in_event = [(.not. (is_at_rest(model%lift_law, samples%angle(i)) .or. is_at_rest(model%lift_law, &
+               & samples%angle(i) - 0.5_wp*beside_jump)), i=1, samples%count)]
+         end if
+         in_event = in_event .and. lift >= nearly*model%train%seat_lift
       end associate
       if (.not. any(in_event)) in_event = .true.
    end function in_event

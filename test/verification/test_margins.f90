@@ -10,10 +10,12 @@ module test_margins
    use camroller_margins, only : margins_t, find_margins
    use camroller_model, only : model_t, new_model
    use camroller_pivot, only : pivot_force
+   use camroller_result, only : get_summary, result_t
+   use camroller_run, only : run_case
    use camroller_state, only : evaluate_loading
    use camroller_torque, only : normal_direction
    use closeness, only : check_close, check_scaled, expect_error
-   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_viscosities
+   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
    private
 
@@ -30,6 +32,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
+         new_unittest("the smallest load of the event is the margin where it is at the event's end", test_event_end), &
          new_unittest("speeds of contact loss, pump-up and joint opening agree with the independent reference", test_numbers), &
          new_unittest("margins are the smallest forces of a fine scan", test_scan), &
          new_unittest("at the limit speed of a margin the smallest force of a fine scan is zero", test_speeds), &
@@ -339,5 +342,29 @@ contains
       if (allocated(error)) return
       if (allocated(margins%pivot)) call test_failed(error, "a margin without a mass")
    end subroutine test_no_mass
+
+   !> A cycloidal lift begins with the third power of the angle; the load is least where it begins, and that is the margin without
+   !> friction. The first row that has any lift above rounding has 1e-4 more.
+   subroutine test_event_end(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      real(wp) :: smallest, margin ! [N]
+
+      the_case = thesis_case()
+      the_case%energy = "source"
+      the_case%lift%law = "cycloidal"
+      the_case%spring%seating = "maximum"
+      the_case%spring%base_circle_load = 1.0_wp
+      call set_point(the_case, point_speeds(3), point_viscosities(1))
+      call run_case(the_case, result, failure)
+      if (.not. allocated(failure)) call get_summary(result, "min_event_contact_load", smallest, failure)
+      if (.not. allocated(failure)) call get_summary(result, "margin_event", margin, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      ! Beside the end the load has risen by the rounding of a distance of 1e-9
+      call check(error, smallest, margin, thr=1.0e-8_wp*margin)
+   end subroutine test_event_end
 
 end module test_margins
