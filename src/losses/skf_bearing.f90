@@ -43,8 +43,8 @@ module camroller_skf_bearing
       real(wp) :: starvation = 0.0_wp
       !> Coefficients without a film and under a whole one [-]
       real(wp) :: boundary_coefficient = 0.0_wp, film_coefficient = 0.0_wp
-      !> Kinematic viscosity [mm^2/s]
-      real(wp) :: viscosity = 0.0_wp
+      !> Kinematic viscosity [mm^2/s]; 1/P_ish - 1 over the 1.28th power of the speed [(rev/min)^-1.28]
+      real(wp) :: viscosity = 0.0_wp, heat = 0.0_wp
    end type skf_part_t
 
    !> A bearing at one instant
@@ -103,6 +103,7 @@ contains
       real(wp), intent(in) :: kinematic_viscosity
 
       part%viscosity = kinematic_viscosity*square_millimetres
+      part%heat = heat_factor*part%diameter**heat_speed_power*part%viscosity**heat_viscosity_power
    end subroutine set_skf_oil
 
    !> State of a bearing under a load.
@@ -128,7 +129,7 @@ contains
       if (.not. load > 0.0_wp) return
       speed = abs(spin)*per_minute
       product = part%viscosity*speed
-      heat = heat_factor*(speed*part%diameter)**heat_speed_power*part%viscosity**heat_viscosity_power
+      heat = part%heat*speed**heat_speed_power
       starving = part%starvation*product
       rolling = newton_millimetre*part%rolling*load**load_power*product**speed_power*exp(-starving)/(1.0_wp + heat)
       covering = film_factor*part%diameter*product**film_power
