@@ -7,7 +7,7 @@ module camroller_deck_sense
    use camroller_deck_engine, only : strokes_of
    use camroller_engine, only : from_firing
    use camroller_text_lines, only : add_line, line_t
-   use camroller_needle, only : has_needles
+   use camroller_needle, only : has_needles, kind_skf, roller_bearing_names
    use camroller_number_text, only : counted, integer_text, number_text
    use camroller_oil_data, only : smallest_indexed, viscosity_at_40
    use camroller_settings, only : get_word, has_group, is_known, settings_t, take
@@ -102,8 +102,18 @@ contains
 
       ! Values of keys, radius of the needles, diameter of their circle by the others [m]
       real(wp) :: value(3), needle(1), by_others
+      ! Coefficients of friction [-]
+      real(wp) :: coefficients(2)
       logical :: are_there, is_there
 
+      call get(settings, left_out, "needle_bearing.friction_coefficient needle_bearing.skf_film_coefficient", coefficients, &
+         & are_there)
+      if (are_there .and. .not. any(left_out == "needle_bearing.kind")) then
+         if (get_word(settings, "needle_bearing", "kind") == roller_bearing_names(kind_skf) .and. &
+            & coefficients(1) < coefficients(2)) call add_line(remarks, "needle_bearing.friction_coefficient = "// &
+            & number_text(coefficients(1), digits)//" is that of sliding without a film with kind = 'needles_skf', 0.12 to "// &
+            & "0.15 as a rule, and less than that under a whole film, "//number_text(coefficients(2), digits))
+      end if
       if (.not. has_group(settings, "needle_drag")) return
       if (has_group(settings, "needle_bearing") .and. .not. any(left_out == "needle_bearing.kind")) then
          if (.not. has_needles(get_word(settings, "needle_bearing", "kind"))) then

@@ -125,6 +125,9 @@ def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
     ("thesis", "&needle_drag pitch_diameter_mm = 50 /", [], ["pitch_diameter_mm = 50: radius, wall and needles of the roller give 10.22 mm"]),
     ("thesis", "&needle_drag pitch_diameter_mm = 10.2 /", ["lubricant.density_kg_m3=900"], []),
     ("thesis", "&needle_drag pitch_diameter_mm = 10.2 /\n&heat inlet_law = 'none' contact = 'none' /", [], ["&heat has no effect"]),
+    *(("thesis", "", ["needle_bearing.kind=needles_skf", "needle_bearing.skf_rolling_factor=2e-6", "needle_bearing.skf_sliding_factor=0.0015",
+                      "needle_bearing.skf_geometry_factor=6", f"needle_bearing.friction_coefficient={coefficient}"], words)
+      for coefficient, words in (("0.0015", ["friction_coefficient = 0.0015 is that of sliding without a film"]), ("0.12", []))),
     ("thesis", "&boundary_law reference_speed_m_s = 0.1 reference_temperature_degC = 100 change_per_decade = 0.01 change_per_K = -2e-4\n"
      "lowest_speed_m_s = 0.001 /", ["asperity.boundary_coefficient=0.5"], ["= 0.5 is cut to boundary_law.largest_coefficient = 0.3"]),
     ("sliding_joints", "", ["guide_side_load.tip_height_mm=5"], ["would go 4.5 mm into its guide, with a lift of 9.5 mm"]),
