@@ -326,33 +326,35 @@ contains
       call check(error, nint(values(losses_of_contact)), nint(rows(8, row)), "losses of contact")
    end subroutine test_lash
 
-   !> The first mode of the spring is largest where harmonics 10 and 11 of the lift meet its frequency, 60 f_1/h rev/min: as large
-   !> as the sum of its closed responses to all harmonics, and smaller 4 % of the speed away, twice the width of the resonance.
+   !> Where harmonics 8 to 12 of the lift meet the frequency of the spring's first mode, 60 f_1/h rev/min, its force is the sum of
+   !> its closed responses to all harmonics, and larger than 4 % of the speed away, twice the width of the resonance; but for the
+   !> twelfth, which is a quarter of its neighbour. A spring with twice the force at rest holds the train at the two highest speeds.
    subroutine test_campbell(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Speeds of resonance [rev/min]
-      real(wp), parameter :: speeds(*) = [2500.0_wp, 25000.0_wp/11.0_wp]
+      type(case_t) :: the_case
       type(flexible_cycle_t) :: cycle
       type(model_t) :: model
       type(outlook_t) :: outlook
       ! Measures [unit of the measure], force below, at and above resonance [N]
       real(wp), allocatable :: values(:)
       real(wp) :: found(-1:1)
-      integer :: i, side
+      integer :: harmonic, side
 
-      do i = 1, size(speeds)
+      do harmonic = 8, 12
          do side = -1, 1
-            call measure(reference(speeds(i)*(1.0_wp + 0.04_wp*side), .false.), "rodas5p", 1.0e-4_wp, values, cycle, error)
+            the_case = reference(25000.0_wp/harmonic*(1.0_wp + 0.04_wp*side), .false.)
+            if (harmonic < 10) the_case%spring%precompression = 2.0_wp*the_case%spring%precompression
+            call measure(the_case, "rodas5p", 1.0e-4_wp, values, cycle, error)
             if (allocated(error)) return
             found(side) = values(surge_force)
          end do
-         call check(error, all(found([-1, 1]) < 0.85_wp*found(0)), "no peak of the first mode")
+         if (harmonic < 12) call check(error, all(found([-1, 1]) < 0.85_wp*found(0)), "no peak of the first mode")
          if (allocated(error)) return
-         call make_model(reference(speeds(i), .false.), model, error)
+         call make_model(reference(25000.0_wp/harmonic, .false.), model, error)
          if (allocated(error)) return
          call find_outlook(model, outlook)
-         ! The vibration of the train, which the closed responses leave out, adds 3 and 6 per cent
-         call check_close(error, found(0), outlook%surge(1), 0.1_wp, "height of the peak")
+         ! The vibration of the train, which the closed responses leave out, changes it by -2 to 7 per cent
+         call check_close(error, found(0), outlook%surge(1), 0.1_wp, "force in resonance")
          if (allocated(error)) return
       end do
    end subroutine test_campbell

@@ -1,4 +1,4 @@
-!> Every deck in `decks/hard/dynamics`: flexible trains that are hard to integrate.
+!> Every deck of a flexible train: those in `decks/hard/dynamics`, which are hard to integrate, and convergence of all of them.
 module test_hard_dynamics
    use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, two_pi
@@ -14,6 +14,7 @@ module test_hard_dynamics
    use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, loss_torque, residual_work
    use closeness, only : check_close, check_scaled
    use deck_cases, only : get_deck_case
+   use run_settings, only : has_checks
    implicit none
    private
 
@@ -26,6 +27,9 @@ module test_hard_dynamics
       & "noisy_lift_table", "soft_seat", "cold_start_stiff_leak"]
    character(len=name_length), parameter :: flying(*) = [character(len=name_length) :: "spring_in_resonance", &
       & "mechanical_lash", "overspeed", "overspeed_adjuster"]
+   character(len=*), parameter :: hard = "hard/dynamics/"
+   !> Turns in which a period is found to a tenth of a tolerance of 1e-6; a cold adjuster takes 36
+   integer, parameter :: most_cycles = 100
    !> Tolerance of a step [-]
    real(wp), parameter :: tolerance = 4.0e-4_wp
    !> Steps tried in a turn: 300 to 3500 are taken; more than 50 000 where the sliding speed chatters on a solid film
@@ -40,18 +44,21 @@ contains
          new_unittest("hard flexible trains with periodic motion: two methods agree, energy closes, steps are few", &
             & test_periodic), &
          new_unittest("trains that lose contact: two methods agree on the first turn, energy closes, steps are few", test_flying), &
+         new_unittest("load and losses of every deck of a flexible train converge with the tolerance", test_convergence), &
          new_unittest("a roller that slides on a film as good as solid comes to rest, however small the tolerance", test_solid) &
          ]
    end subroutine collect_hard_dynamics
 
    !> Measures of the last of some turns from rest.
-   subroutine measure(deck_name, method, most_turns, values, period, error)
+   subroutine measure(deck_name, method, most_turns, values, period, error, finer)
       character(len=*), intent(in) :: deck_name, method
       integer, intent(in) :: most_turns
       !> Measures [unit of the measure]
       real(wp), allocatable, intent(out) :: values(:)
       integer, intent(out) :: period
       type(error_type), allocatable, intent(out) :: error
+      !> Tolerance of a step in the place of the usual one [-]; the period is then looked for to a tenth of it
+      real(wp), intent(in), optional :: finer
       type(case_t) :: case
       type(model_t), allocatable, target :: models(:)
       type(turn_t) :: turn
@@ -59,13 +66,20 @@ contains
       type(error_t), allocatable :: failure
       !> State [state]
       real(wp), allocatable :: state(:)
+      real(wp) :: step, periodicity ! Tolerances [-]
 
       period = 0
-      call get_deck_case("decks/hard/dynamics/"//trim(deck_name)//".nml", case, failure)
+      step = tolerance
+      periodicity = 10.0_wp*tolerance
+      if (present(finer)) then
+         step = finer
+         periodicity = 0.1_wp*finer
+      end if
+      call get_deck_case("decks/"//trim(deck_name)//".nml", case, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
-      if (.not. allocated(failure)) call start_turns(turn, models(1), method, tolerance, failure)
+      if (.not. allocated(failure)) call start_turns(turn, models(1), method, step, failure)
       if (.not. allocated(failure)) call rest_of_train(models(1), state, failure)
-      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 10.0_wp*tolerance, most_turns, failure)
+      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, periodicity, most_turns, failure)
       if (.not. allocated(failure)) then
          allocate (values(measure_count(merge(2, 1, allocated(case%lash_adjuster)))))
          call measure_turn(models(1), cycle%trajectory, cycle%resolution, values, failure)
@@ -88,11 +102,11 @@ contains
       integer :: i, period
 
       do i = 1, size(periodic)
-         call measure(periodic(i), "rodas5p", 40, one, period, error)
+         call measure(hard//periodic(i), "rodas5p", 40, one, period, error)
          if (allocated(error)) return
          call check(error, period, 1, trim(periodic(i))//" has no period of one cycle")
          if (allocated(error)) return
-         call measure(periodic(i), "radau5", 40, other, period, error)
+         call measure(hard//periodic(i), "radau5", 40, other, period, error)
          if (allocated(error)) return
          ! Errors at this tolerance
          call check_close(error, other(largest_load), one(largest_load), 5.0e-3_wp, trim(periodic(i))//": largest load")
@@ -109,9 +123,9 @@ contains
       integer :: i, period
 
       do i = 1, size(flying)
-         call measure(flying(i), "rodas5p", 1, one, period, error)
+         call measure(hard//flying(i), "rodas5p", 1, one, period, error)
          if (allocated(error)) return
-         call measure(flying(i), "radau5", 1, other, period, error)
+         call measure(hard//flying(i), "radau5", 1, other, period, error)
          if (allocated(error)) return
          ! A turn with impacts multiplies errors of the tolerance by some ten
          call check_close(error, other(largest_load), one(largest_load), 2.0e-2_wp, trim(flying(i))//": largest load")
@@ -120,6 +134,48 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_flying
+
+   !> Every deck: the periodic turn where it has one, else the first. With run-time checks one of each.
+   subroutine test_convergence(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+
+      call converge("dynamics", most_cycles, error)
+      if (.not. (allocated(error) .or. has_checks())) call converge("lash_adjuster", most_cycles, error)
+      do i = 1, merge(0, size(periodic), has_checks())
+         if (.not. allocated(error)) call converge(hard//periodic(i), most_cycles, error)
+      end do
+      do i = 1, merge(1, size(flying), has_checks())
+         if (.not. allocated(error)) call converge(hard//flying(i), 1, error)
+      end do
+   end subroutine test_convergence
+
+   !> Losses and largest load of a turn for two tolerances against those for a far smaller one.
+   subroutine converge(deck_name, most_turns, error)
+      character(len=*), intent(in) :: deck_name
+      integer, intent(in) :: most_turns
+      type(error_type), allocatable, intent(out) :: error
+      ! Tolerances [-]. The losses are a mean, whose error is within a tolerance; that of the largest load, a peak of an impact in
+      ! trains that fly, was met at up to fifteen
+      real(wp), parameter :: tolerances(2) = [1.0e-3_wp, 1.0e-5_wp], reference = 1.0e-6_wp, several = 30.0_wp
+      ! Measures [unit of the measure], errors of the losses over them [-]
+      real(wp), allocatable :: right(:), values(:)
+      real(wp) :: errors(size(tolerances))
+      integer :: i, period
+
+      call measure(deck_name, "rodas5p", most_turns, right, period, error, reference)
+      do i = 1, size(tolerances)
+         if (.not. allocated(error)) call measure(deck_name, "rodas5p", most_turns, values, period, error, tolerances(i))
+         if (allocated(error)) return
+         errors(i) = abs(values(loss_torque)/right(loss_torque) - 1.0_wp)
+      end do
+      call check_close(error, values(loss_torque), right(loss_torque), tolerances(2), deck_name//": losses")
+      if (allocated(error)) return
+      call check_close(error, values(largest_load), right(largest_load), several*tolerances(2), deck_name//": largest load")
+      if (allocated(error)) return
+      ! With two decades of the tolerance an error falls by two; by one where chance is against it
+      call check(error, errors(2) < 0.1_wp*errors(1), deck_name//": the error of the losses does not fall with the tolerance")
+   end subroutine converge
 
    !> Friction stops the roller within 1e-10 rad, and the steps that follow are those of a roller at rest.
    subroutine test_solid(error)
