@@ -1,7 +1,7 @@
 !> Conservation of energy: at every angle, over every interval, over the cycle.
 module test_energy
-   use testdrive, only : unittest_type, new_unittest, error_type, test_failed
-   use camroller_kinds, only : wp, pi, two_pi, degree
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, pi, degree
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
@@ -14,17 +14,13 @@ module test_energy
    use camroller_quadrature, only : gauss_legendre
    use camroller_torque_list, only : of_geometric, of_roller_inertia, of_residual
    use closeness, only : check_scaled
+   use energy_checks, only : check_energy
    use reference_cases, only : thesis_case, skewed_case, set_point, add_gas_force, make_model, make_cycle, point_speeds, &
       point_viscosities
    implicit none
    private
 
    public :: collect_energy
-
-   !> Angles at which the balance is looked at
-   integer, parameter :: angle_count = 720
-   !> Residual allowed, relative to the mean power lost [-]: round-off of a stored power that is up to 1e3 times larger
-   real(wp), parameter :: residual_tolerance = 1.0e-10_wp
 
 contains
 
@@ -43,35 +39,14 @@ contains
          ]
    end subroutine collect_energy
 
-   !> Largest residual over the cycle, relative to the mean power lost.
+   !> No residual over the cycle of a case that never loses contact.
    subroutine check_residual(case, error)
       type(case_t), intent(in) :: case
       type(error_type), allocatable, intent(out) :: error
-      type(model_t) :: model
-      type(cycle_t) :: cycle
-      type(state_t) :: state
-      type(error_t), allocatable :: failure
-      ! Largest residual, mean power lost [W]
-      real(wp) :: largest, lost
-      integer :: i, hint
+      type(state_t), allocatable :: states(:)
 
-      call make_model(case, model, error)
-      if (allocated(error)) return
-      call make_cycle(case, model, cycle, error)
-      if (allocated(error)) return
-      largest = 0.0_wp
-      lost = 0.0_wp
-      hint = 1
-      do i = 0, angle_count - 1
-         call state_at(cycle, model, i*two_pi/angle_count, hint, state, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
-         if (.not. state%contact%is_touching) call test_failed(error, "contact is lost")
-         if (allocated(error)) return
-         largest = max(largest, abs(state%torques(of_residual)))
-         lost = lost + state%torque_friction*model%speed/angle_count
-      end do
-      call check_scaled(error, largest, 0.0_wp, lost, residual_tolerance, "largest energy residual")
+      call check_energy(case, states, error)
+      if (.not. allocated(error)) call check(error, all(states%contact%is_touching), "contact is lost")
    end subroutine check_residual
 
    subroutine test_nine_points(error)
