@@ -32,7 +32,7 @@ import sys
 EFFECTS = {
     "asperity": (["asperity"], ["greenwood_tripp:integral_2", "load_share:improve_share",
                                 "load_share:share_with_asperities", "load_share:complete_share", "traction:mobilised_share"]),
-    "needle_bearing": (["needle", "pin_film"], ["contact_forces:load_pin", "part_series:add_pin"]),
+    "needle_bearing": (["needle", "pin_film", "skf_bearing"], ["contact_forces:load_bearing", "part_series:add_pin"]),
     "needle_drag": (["needle_drag"], []),
     "valve_guide": (["guide"], []),
     "valve_tip": ([], ["stem_friction:new_tip_part"]),
@@ -66,8 +66,9 @@ KEYS = {"journal_orbit": ("journal_motion", "orbit", []), "local_limit": ("limit
 #: The computation
 ROOT = "__camroller_run_MOD_run_next_case"
 #: Part of the instructions that may be unaccounted for. What samples, integrates and searches all series is dearer with the series of an
-#: effect (asperities: 1.2 % of a run), and what loops over cams with every cam that bearings add (three cams: 2.0 %)
-ALLOWED = 0.025
+#: effect, calls that it makes fewer are dearer than the mean of all (asperities of decks/thesis.nml, with a tenth fewer evaluations: 2.9 %
+#: of a run), and what loops over cams is dearer with every cam that bearings add (three cams: 2.2 %)
+ALLOWED = 0.035
 
 CALLS = re.compile(r"calls=(\d+)")
 GROUP = re.compile(r"^\s*&(\w+)", re.MULTILINE)
