@@ -202,9 +202,10 @@ contains
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      type(bearing_state_t) :: states(size(films, 1), size(films, 2))
+      type(bearing_state_t), allocatable :: states(:, :)
       real(wp) :: torques(torque_count, size(films, 2)) ! [N m]
 
+      allocate (states(size(films, 1), size(films, 2)))
       call shaft_torques(solved, two_pi*number/angles, torques, error, bearings=states)
       if (.not. allocated(error)) films = states%film
    end subroutine take_films

@@ -297,11 +297,12 @@ contains
       !> What each cam takes from its follower there, shape (value, cam); those of twins are not used [N m, N]; without it the
       !> curves say so
       real(wp), intent(in), contiguous, optional :: cams(:, :)
-      !> States of the bearings, shape (bearing, camshaft)
-      type(bearing_state_t), intent(out), optional :: bearings(:, :)
+      !> States of the bearings, shape (bearing, camshaft), where it is allocated
+      type(bearing_state_t), allocatable, intent(inout), optional :: bearings(:, :)
 
       real(wp) :: values(curve_values) ! torques and force of a cam [N m, N]
       integer :: cam
+      logical :: with_states ! Are the states of the bearings wanted?
 
       associate (shaft => solved%shaft)
          if (present(cams)) then
@@ -315,7 +316,13 @@ contains
             end do
             call add_cams(shaft, shaft%values, torques)
          end if
-         call bearing_torques(shaft, shaft%forces, torques(of_bearings, :), error, bearings, angle)
+         with_states = .false.
+         if (present(bearings)) with_states = allocated(bearings)
+         if (with_states) then
+            call bearing_torques(shaft, shaft%forces, torques(of_bearings, :), error, bearings, angle)
+         else
+            call bearing_torques(shaft, shaft%forces, torques(of_bearings, :), error, angle=angle)
+         end if
          torques(of_shaft_drag, :) = shaft%drag
       end associate
    end subroutine shaft_torques

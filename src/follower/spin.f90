@@ -307,6 +307,7 @@ contains
 
       start%is_touching = .false.
       if (.not. associated(nearby)) return
+      if (.not. nearby%has_first) return
       start = nearby%last
       if (.not. start%is_touching) return
       change = nearby%slopes(:, 1)*(sliding_speed - nearby%sliding_speed) + nearby%slopes(:, 2)*(angle - nearby%angle)

@@ -492,9 +492,9 @@ contains
       type(bearing_state_t), allocatable :: bearings(:, :)
 
       if (bearing_count(solved%case) > 0) allocate (bearings(bearing_count(solved%case), solved%shaft%count))
-      call shaft_torques(solved, angle, torques, error, cams, bearings)
-      if (allocated(error)) return
-      call camshaft_values(solved%case, torques, values, bearings, solved%shaft%has_torque)
+      if (present(cams)) call shaft_torques(solved, angle, torques, error, cams, bearings)
+      if (.not. present(cams)) call shaft_torques(solved, angle, torques, error, bearings=bearings)
+      if (.not. allocated(error)) call camshaft_values(solved%case, torques, values, bearings, solved%shaft%has_torque)
    end subroutine camshaft_row
 
 end module camroller_camshaft_statistics

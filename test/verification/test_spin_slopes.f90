@@ -11,7 +11,8 @@ module test_spin_slopes
    use camroller_lubricant, only : pressure_law_names
    use camroller_traction, only : rolling_law_names
    use camroller_pin_film, only : pin_law_names
-   use camroller_spin, only : spin_problem_t
+   use camroller_contact_state, only : release_contact
+   use camroller_spin, only : nearby_t, spin_problem_t
    use closeness, only : check_scaled
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_boundary_law, add_gas_force, &
@@ -52,7 +53,8 @@ contains
          new_unittest("slopes with an oil film on the roller's pin, for both of its laws", test_with_pin_film), &
          new_unittest("slopes with needles by SKF's model", test_with_skf_needles), &
          new_unittest("slopes with a given fraction of the boundary friction, as in sliding and sticking", test_given_share), &
-         new_unittest("slopes without contact are those of the kinematics", test_no_contact) &
+         new_unittest("slopes without contact are those of the kinematics", test_no_contact), &
+         new_unittest("a contact that was never solved is none to start from", test_no_start) &
          ]
    end subroutine collect_spin_slopes
 
@@ -427,5 +429,31 @@ contains
       call problem%linearise(0.01_wp, [1.0_wp], 1.0_wp, linear, counters, status)
       call check(error, status == 0 .and. .not. abs(linear%jacobian(1, 1)) > 0.0_wp .and. .not. abs(linear%span) > 0.0_wp)
    end subroutine test_no_contact
+
+   !> What is not set may say that it touches.
+   subroutine test_no_start(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_t), target :: model
+      type(nearby_t), target :: nearby
+      type(spin_problem_t) :: problem
+      ! Sliding speed [m/s], rates [m/s/rad]
+      real(wp) :: state(1), alone(1), beside(1)
+      integer :: status
+
+      call make_model(skewed_case(rotation_names(1)), model, error)
+      if (allocated(error)) return
+      problem%model => model
+      problem%accuracy = 1.0e-4_wp
+      state = 1.0e-3_wp*model%speed
+      call problem%get_rate(20.0_wp*degree, state, alone, status)
+      nearby%last%bearing_drag = 0.0_wp
+      call release_contact(nearby%last)
+      nearby%last%is_touching = .true.
+      nearby%last%tangential_force = 300.0_wp
+      nearby%last%film_ratio = 0.01_wp
+      problem%nearby => nearby
+      call problem%get_rate(20.0_wp*degree, state, beside, status)
+      call check(error, beside(1), alone(1), thr=0.0_wp)
+   end subroutine test_no_start
 
 end module test_spin_slopes
