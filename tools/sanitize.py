@@ -31,9 +31,9 @@ SUPPRESSIONS = "leak:libhdf5\nleak:libopenblas\nleak:libgomp\nleak:libgfortran\n
 LONG_SUITES = {"random_cases", "random_ehl", "needed", "ehl_rough"}
 
 
-def environment(folder: pathlib.Path, leaks: bool) -> dict[str, str]:
+def environment(leaks: bool) -> dict[str, str]:
     """Variables that the checks read."""
-    suppressions = folder / "suppressions"
+    suppressions = ROOT / "build/sanitize.suppressions"
     suppressions.write_text(SUPPRESSIONS, encoding="utf-8")
     return os.environ | {
         "ASAN_OPTIONS": f"detect_leaks={int(leaks)}:detect_stack_use_after_return=0:allocator_may_return_null=1",
@@ -47,7 +47,7 @@ def environment(folder: pathlib.Path, leaks: bool) -> dict[str, str]:
 def attempt(words: list[str], folder: pathlib.Path, leaks: bool = False) -> list[str]:
     """Run a command; what the checks found, once each."""
     try:
-        done = subprocess.run(words, cwd=folder, env=environment(folder, leaks), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        done = subprocess.run(words, cwd=folder, env=environment(leaks), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, errors="replace", timeout=SECONDS, check=False)
     except subprocess.TimeoutExpired:
         return [f"not over after {SECONDS} s"]

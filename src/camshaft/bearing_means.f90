@@ -109,7 +109,7 @@ contains
    end subroutine choose_angles
 
    !> Error allowed: of means of torque and flow, over the means; of the rise of temperature, over a kelvin, which changes viscosity
-   !> and torque by some per cent [-].
+   !> and torque by some per cent.
    pure function mean_accuracy(turn) result(error)
       !> The bearing
       type(bearing_turn_t), intent(in) :: turn

@@ -41,13 +41,14 @@ contains
       call add_number(schema, "reversal_ratio", proper_fraction, &
          & "fraction of the cam's speed within which the bearing torque changes its sign smoothly", default=standard%reversal_ratio)
       call add_number(schema, "skf_rolling_factor", positive, &
-         & "R_1 of the bearing's kind, of its rolling torque, in SKF's units; of cylindrical rollers 1.0e-6 to 1.5e-6 with a "// &
-         & "cage, 2.1e-6 without", is_optional=.true.)
+         & "R_1 of the bearing's kind, of its rolling torque, in SKF's units; of cylindrical rollers about 1.0e-6 to 1.5e-6 "// &
+         & "with a cage, 2.1e-6 without", is_optional=.true.)
       call add_number(schema, "skf_sliding_factor", positive, &
-         & "S_2 of the bearing's kind, of its sliding torque by radial load, in SKF's units; of cylindrical rollers 0.0015", &
-         & is_optional=.true.)
+         & "S_2 of the bearing's kind, of its sliding torque by radial load, in SKF's units; of cylindrical rollers about "// &
+         & "0.0015", is_optional=.true.)
       call add_number(schema, "skf_geometry_factor", positive, &
-         & "K_Z of the bearing's kind, of the oil's return; of cylindrical rollers 5 with a cage, 6 without", is_optional=.true.)
+         & "K_Z of the bearing's kind, of the oil's return; of cylindrical rollers about 5 with a cage, 6 without", &
+         & is_optional=.true.)
       call add_number(schema, "skf_replenishment_factor", not_negative, &
          & "K_rs of the lubrication: 3e-8 for an oil jet or a low bath, 6e-8 for oil mist", default=standard%skf%replenishment)
       call add_number(schema, "skf_film_coefficient", not_negative, "mu_EHL, friction coefficient of sliding under a whole film", &

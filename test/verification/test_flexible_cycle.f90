@@ -327,8 +327,8 @@ contains
    end subroutine test_lash
 
    !> Where harmonics 8 to 12 of the lift meet the frequency of the spring's first mode, 60 f_1/h rev/min, its force is the sum of
-   !> its closed responses to all harmonics, and larger than 4 % of the speed away, twice the width of the resonance; but for the
-   !> twelfth, which is a quarter of its neighbour. A spring with twice the force at rest holds the train at the two highest speeds.
+   !> its closed responses to all harmonics and, but for the twelfth, which its neighbour exceeds, larger than 4 % of speed away,
+   !> twice the width of the resonance. Twice the spring's force at rest keeps the two fastest trains periodic, if not in contact.
    subroutine test_campbell(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: the_case

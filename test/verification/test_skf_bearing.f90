@@ -7,12 +7,9 @@ module test_skf_bearing
    use camroller_kinematics, only : rotation_names
    use camroller_model, only : model_t, new_model
    use camroller_skf_bearing, only : new_skf_part, set_skf_oil, skf_bearing_t, skf_part_t, skf_state_t, solve_skf
-   use camroller_state, only : state_t
-   use camroller_torque_list, only : of_needle
    use closeness, only : check_close, check_scaled, expect_error
-   use energy_checks, only : check_energy
-   use reference_cases, only : add_gas_force, add_skf_needles, point_speeds, point_viscosities, set_point, skewed_case, &
-      & thesis_case
+   use energy_checks, only : check_bearing_energy
+   use reference_cases, only : add_gas_force, add_skf_needles, skewed_case, thesis_case
    implicit none
    private
 
@@ -150,23 +147,15 @@ contains
 
    subroutine test_energy(error)
       type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(state_t), allocatable :: states(:)
-      real(wp) :: lost, by_bearing ! Mean power lost, that of the bearing [W]
-      integer :: i, k
+      type(case_t) :: cases(3)
+      integer :: k
 
-      do k = 1, 3
-         case = skewed_case(rotation_names(1 + mod(k, 2)))
-         call add_gas_force(case)
-         call add_skf_needles(case)
-         call set_point(case, merge(6.0_wp, 1.0_wp, k == 3)*point_speeds(3), point_viscosities(k))
-         call check_energy(case, states, error, lost)
-         if (allocated(error)) return
-         by_bearing = sum([(states(i)%torques(of_needle), i=1, size(states))])/size(states)*case%operating_point%speed
-         call check(error, by_bearing > 0.01_wp*lost .and. (all(states%contact%is_touching) .neqv. k == 3), &
-            & "the bearing takes power; contact is lost at speed")
-         if (allocated(error)) return
+      do k = 1, size(cases)
+         cases(k) = skewed_case(rotation_names(1 + mod(k, 2)))
+         call add_gas_force(cases(k))
+         call add_skf_needles(cases(k))
       end do
+      call check_bearing_energy(cases, 0.01_wp, error)
    end subroutine test_energy
 
    subroutine test_refusals(error)
