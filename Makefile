@@ -140,6 +140,7 @@ install: ## libraries, header, modules and program by CMake, into PREFIX=/usr/lo
 	@$(CMAKE) --build build/cmake -j2 >> build/cmake.log 2>&1 || { tail -n 20 build/cmake.log; exit 1; }
 	@$(CMAKE) --install build/cmake
 
+test: export MPI_LINK_FLAGS := -fno-lto
 test: build debug mpi ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py
 

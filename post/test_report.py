@@ -26,6 +26,12 @@ def fixture_page(tmp_path):
     return target
 
 
+@pytest.fixture(name="no_figures")
+def fixture_no_figures(monkeypatch):
+    """Leave the figures out, which take seconds for a page whose words are looked at."""
+    monkeypatch.setattr("report.figures_of", lambda result: "")
+
+
 def test_page_stands_alone(page):
     text = page.read_text(encoding="utf-8")
     assert not re.search(r'(?:src|href)="(?!data:)', text) and "http://" not in re.sub(r"base64,[^\"]*", "", text)
@@ -36,6 +42,7 @@ def test_page_stands_alone(page):
     assert len(re.findall(r"<tr><td>", text)) >= 9
 
 
+@pytest.mark.usefixtures("no_figures")
 def test_page_shows_the_worst_lobe_shape(tmp_path):
     source = write_result(tmp_path / "nine.h5")
     with h5py.File(source, "a") as file:
@@ -55,6 +62,7 @@ def test_page_is_written_beside_the_file_and_errors_are_one_line(tmp_path, capsy
     assert not (tmp_path / "none.html").exists() and "report:" in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("no_figures")
 def test_remarks_of_a_kind_are_one_line_and_estimates_are_told(tmp_path):
     source = write_result(tmp_path / "nine.h5")
     with h5py.File(source, "a") as file:

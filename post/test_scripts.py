@@ -196,7 +196,8 @@ def test_every_script_refuses_a_target_of_another_kind(good, tmp_path, capsys):
     assert set((tmp_path / "out").iterdir()) == places and {place.read_text() for place in places} == {"&case /\n"}
 
 
-def test_pages_replace_their_own_kind_alone_and_links_stay(good, tmp_path):
+def test_pages_replace_their_own_kind_alone_and_links_stay(good, tmp_path, monkeypatch):
+    monkeypatch.setattr(report, "figures_of", lambda result: "")  # which take seconds
     page, link = tmp_path / "page.html", tmp_path / "link.html"
     link.symlink_to(page)
     for _ in range(2):

@@ -84,13 +84,13 @@ def build(part: Part, flags: str) -> tuple[int, int]:
     return (1, 0) if code == 0 and pathlib.Path(lines[-1].strip()).is_file() else (0, 1)
 
 
-def python_tests(part: Part, profile: str, *options: str) -> tuple[int, int]:
-    """pytest on the program of one profile."""
-    report = ROOT / f"build/tests/pytest-{profile}.xml"
+def python_tests(part: Part, profile: str, folder: str, *options: str) -> tuple[int, int]:
+    """pytest on the tests of one folder, with the program of one profile."""
+    report = ROOT / f"build/tests/pytest-{profile}-{folder}.xml"
     report.parent.mkdir(parents=True, exist_ok=True)
     report.unlink(missing_ok=True)
     program = str(ROOT / f"build/{profile}/bin/camroller")
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}", *options]
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={report}", *options, folder]
     code, _ = part.run(command, CAMROLLER=program, MPLBACKEND="Agg")
     if code == 5:  # no test chosen
         return 0, 0
@@ -115,12 +115,13 @@ def main() -> int:
         print(f"0 passed, {sum(part.failed for part in builds)} failed")
         return 1
     programs = [part.text[-1].strip() for part in builds]
-    # the longest first, so that the other three run beside it
+    # in the order in which two at a time end at nearly the same time, the longest first
     parts = [
-        Part("Python tests, optimised program", python_tests, "release"),
-        Part("Fortran tests, run-time checks", fortran_tests, programs[0]),
+        Part("Python tests, optimised program", python_tests, "release", "test"),
+        Part("Python tests, program with run-time checks", python_tests, "debug", "test", "-m", "program"),
+        Part("Python tests of figures", python_tests, "release", "post"),
         Part("Fortran tests, optimised", fortran_tests, programs[1]),
-        Part("Python tests, program with run-time checks", python_tests, "debug", "-m", "program"),
+        Part("Fortran tests, run-time checks", fortran_tests, programs[0]),
     ]
     with concurrent.futures.ThreadPoolExecutor(max_workers=min(2, os.cpu_count() or 1)) as pool:
         for done in concurrent.futures.as_completed([pool.submit(part.do) for part in parts]):
