@@ -462,12 +462,12 @@ contains
       if (allocated(case%needle_bearing)) then
          allocate (model%bearing)
          call new_bearing_part(model%bearing, case%needle_bearing, model%roller_radius - case%roller%wall_thickness, &
-            & allocated(case%dynamics), allocated(case%ehl) .or. allocated(case%needle_drag), error)
+            & allocated(case%ehl) .or. allocated(case%needle_drag), error)
          if (allocated(error)) return
       end if
       if (allocated(case%needle_drag)) then
          allocate (model%drag)
-         call new_drag_part(model%drag, case%needle_drag, allocated(case%dynamics), error)
+         call new_drag_part(model%drag, case%needle_drag, error)
          if (allocated(error)) return
       end if
       if (allocated(case%valve_guide)) then

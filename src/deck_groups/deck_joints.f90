@@ -161,8 +161,8 @@ contains
          if (.not. has_group(settings, trim(groups(i)))) cycle
          if (i <= with_balance .and. get_word(settings, "case", "energy") == energy_names(energy_source)) call &
             & complain_about_group(mistakes, settings, trim(groups(i)), "&"//trim(groups(i))//" needs case energy = 'consistent'")
-         if (has_group(settings, "dynamics")) call complain_about_group(mistakes, settings, trim(groups(i)), &
-            & "&"//trim(groups(i))//" is not part of a flexible train, &dynamics; leave out one of both")
+         if (i <= with_balance .and. has_group(settings, "dynamics")) call complain_about_group(mistakes, settings, &
+            & trim(groups(i)), "&"//trim(groups(i))//" is not part of a flexible train, &dynamics; leave out one of both")
          if (i <= with_coefficient) call curve_is_given(settings, trim(groups(i)), mistakes)
       end do
       if (has_group(settings, "finger_pivot") .and. has_group(settings, "masses")) then

@@ -148,7 +148,7 @@ contains
          & "pin_roughness_um", "pin_modulus_GPa"]
       character(len=*), parameter :: skf_numbers(*) = [character(len=23) :: "skf_rolling_factor", "skf_sliding_factor", &
          & "skf_geometry_factor"]
-      character(len=*), parameter :: others(*) = [character(len=11) :: "dynamics", "ehl", "needle_drag"]
+      character(len=*), parameter :: others(*) = [character(len=11) :: "ehl", "needle_drag"]
       character(len=:), allocatable :: numbers(:)
       integer :: i
 

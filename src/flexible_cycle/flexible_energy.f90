@@ -6,7 +6,7 @@ module camroller_flexible_energy
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_torque, only : contact_power
-   use camroller_torque_list, only : torque_count, of_contact, of_needle, of_guide, of_damping
+   use camroller_torque_list, only : torque_count, of_contact, of_needle, of_needle_drag, of_guide, of_damping
    use camroller_contact_compliance, only : series_energy
    use camroller_flexible_parts, only : damper_count
    use camroller_spring_modes, only : mode_energy
@@ -61,7 +61,8 @@ contains
          powers%gas = now%gas_force*state(at_speed)
          powers%losses(of_contact) = contact_power(contact%traction, contact%sliding_speed, contact%rolling_resistance, &
             & contact%cam_surface_speed, contact%roller_surface_speed)
-         powers%losses(of_needle) = contact%bearing_torque*contact%relative_spin
+         if (allocated(model%drag)) powers%losses(of_needle_drag) = contact%bearing_drag*contact%relative_spin
+         powers%losses(of_needle) = contact%bearing_torque*contact%relative_spin - powers%losses(of_needle_drag)
          powers%losses(of_guide) = now%guide_drag*state(at_speed)**2
          powers%dampers(at_cam) = (contact%load - now%cam%elastic)*now%cam%rate
          powers%dampers(at_pad) = (now%pad%force - now%pad%elastic)*now%pad%rate

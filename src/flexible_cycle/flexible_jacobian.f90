@@ -9,7 +9,8 @@ module camroller_flexible_jacobian
    use camroller_gas, only : gas_force_slope
    use camroller_roller, only : spin_acceleration
    use camroller_lash_adjuster, only : bulk_modulus, chamber_volume
-   use camroller_contact_forces, only : motion_t, slopes_t, follow_contact
+   use camroller_contact_forces, only : motion_t, slopes_t, follow_contact, bearing_by_reversal, has_oil_drag, &
+      & oil_drag_slope
    use camroller_flexible_geometry, only : dot, cross, imaginary
    use camroller_flexible_train, only : flexible_state_t, first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
       & at_plunger, at_plunger_rate, at_pressure, largest_state
@@ -146,7 +147,10 @@ contains
       complex(wp) :: axis
       integer :: i
 
-      if (.not. now%contact%is_touching) return
+      if (.not. now%contact%is_touching) then
+         if (has_oil_drag(model)) call follow_drag(model, now, turns, follow)
+         return
+      end if
       associate (touch => now%touch, contact => now%contact)
          follow%load = now%cam%by_approach*turns%approach + now%cam%by_rate*turns%approach_rate
          call follow_friction(model, now, turns, follow, traction, rolling)
@@ -164,6 +168,53 @@ contains
             & + contact%tangential_force*dot(touch%arm, touch%forward)
       end associate
    end subroutine follow_forces
+
+   !> How the oil in the roller's bearing follows, which holds the roller without contact too.
+   pure subroutine follow_drag(model, now, turns, follow)
+      !> The model, with such oil
+      type(model_t), intent(in) :: model
+      !> Everything at the state
+      type(flexible_state_t), intent(in) :: now
+      !> How geometry follows
+      type(turns_t), intent(in) :: turns
+      !> How forces follow
+      type(follow_t), intent(inout) :: follow
+
+      follow%bearing = oil_drag_slope(model, now%contact%relative_spin)*spin_changes(model, turns)
+      call add_reversal(model, now, follow)
+      follow%moment = model%linkage%sense*follow%bearing
+      follow%spin = spin_acceleration(0.0_wp, 0.0_wp, model%roller_radius, follow%bearing, model%roller_inertia)
+   end subroutine follow_drag
+
+   !> The spin over which the bearing's torque reverses goes with the cam's speed.
+   pure subroutine add_reversal(model, now, follow)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Everything at the state
+      type(flexible_state_t), intent(in) :: now
+      !> How forces follow; out: the bearing's torque with it
+      type(follow_t), intent(inout) :: follow
+
+      if (.not. abs(model%speed_slope) > 0.0_wp) return
+      follow%bearing(by_angle) = follow%bearing(by_angle) + model%speed_slope/model%speed &
+         & *bearing_by_reversal(model, now%contact, now%parts)
+   end subroutine add_reversal
+
+   !> How the roller's spin relative to the finger follows.
+   pure function spin_changes(model, turns) result(spin)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> How geometry follows
+      type(turns_t), intent(in) :: turns
+      !> Changes [rad/s over the unit of the variable]
+      real(wp) :: spin(variables)
+
+      spin = turns%travel_speed
+      spin(by_sliding) = spin(by_sliding) - 1.0_wp
+      spin = spin/model%roller_radius
+      spin(by_finger_rate) = spin(by_finger_rate) - model%linkage%sense
+      spin(by_angle) = spin(by_angle) - model%speed_slope
+   end function spin_changes
 
    !> How friction follows: the contact's own slopes along load, entrainment, radius, sliding speed and spin.
    pure subroutine follow_friction(model, now, turns, follow, traction, rolling)
@@ -193,10 +244,7 @@ contains
             entrainment = (turns%travel_speed*touch%position%equivalent_radius/r + contact%cam_surface_speed*radius &
                & - 0.5_wp*speed)/contact%entrainment_speed
          end if
-         spin = (turns%travel_speed - speed)/r
-         spin(by_finger_rate) = spin(by_finger_rate) - model%linkage%sense
-         ! The bearing's law has the spin over the cam's speed
-         spin(by_angle) = spin(by_angle) - model%speed_slope*(1.0_wp + contact%relative_spin/model%speed)
+         spin = spin_changes(model, turns)
          slopes(1) = follow_contact(model, now%setting, contact, now%parts, motion_t(load=1.0_wp))
          slopes(2) = follow_contact(model, now%setting, contact, now%parts, motion_t(entrainment=1.0_wp))
          slopes(3) = follow_contact(model, now%setting, contact, now%parts, motion_t(radius=1.0_wp))
@@ -213,6 +261,7 @@ contains
                & + contact%rolling_resistance*(now%parts%rolling_part + 1.0_wp)*radius(i)
          end do
       end associate
+      call add_reversal(model, now, follow)
    end subroutine follow_friction
 
    !> Accelerations of finger and pivot over moment and force along the axis.

@@ -16,7 +16,7 @@ module camroller_flexible_train
    use camroller_lash_adjuster, only : flows_t, ambient_pressure, evaluate_flows, adjuster_force, bulk_modulus, &
       & chamber_volume
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, start_heat, prepare_contact, evaluate_contact, &
-      & release_contact, set_surfaces
+      & release_contact, set_bearing_drag, set_surfaces
    use camroller_flexible_geometry, only : touch_t, find_touch, dot, cross, imaginary
    implicit none
    private
@@ -240,7 +240,7 @@ contains
       contact%entrainment_speed = contact%cam_surface_speed - 0.5_wp*contact%sliding_speed
       contact%roller_spin = (contact%rolling_speed - contact%sliding_speed)/model%roller_radius
       contact%relative_spin = contact%roller_spin - model%linkage%sense*state(at_finger_rate)
-      contact%bearing_drag = 0.0_wp
+      call set_bearing_drag(model, contact)
       contact%length = model%contact_width
       call set_surfaces(model, touch%position, contact)
    end subroutine set_surface_speeds

@@ -16,13 +16,14 @@ module camroller_contact_forces
    use camroller_traction, only : mobilised_share, sliding_direction, rolling_resistance, resistance_speed_slope, &
       & resistance_length_slope, rolling_biboulet_houpert, line_lengths_t, same_lengths
    use camroller_needle, only : bearing_torque, bearing_torque_slope, loaded_torque
-   use camroller_needle_drag, only : drag_torque, drag_torque_slope
+   use camroller_needle_drag, only : drag_torque, drag_torque_slope, drag_torque_by_reversal
    use camroller_pin_film, only : unloaded_torque
    implicit none
    private
 
    public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, start_heat, prepare_contact, evaluate_contact, &
-      & follow_contact, release_contact, film_groups, set_surfaces, has_curved_bearing, has_oil_drag, oil_drag_slope, bearing_slope
+      & follow_contact, release_contact, film_groups, set_surfaces, has_curved_bearing, has_oil_drag, oil_drag_slope, &
+      & bearing_by_reversal, bearing_slope, set_bearing_drag
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
    !> error left, times a factor of a few [-]
@@ -52,10 +53,20 @@ contains
       call set_surfaces(model, position, contact)
       contact%relative_spin = contact%roller_spin - model%linkage%sense*position%finger_slope*model%speed
       if (allocated(model%heat)) call start_heat(model, contact)
+      call set_bearing_drag(model, contact)
+   end subroutine set_speeds
+
+   !> Torque of the oil in the roller's bearing that does not depend on the load.
+   pure subroutine set_bearing_drag(model, contact)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> In: spin relative to the finger; out: with the torque
+      type(contact_t), intent(inout) :: contact
+
       contact%bearing_drag = 0.0_wp
       if (allocated(model%drag)) contact%bearing_drag = drag_torque(model%drag, contact%relative_spin)
       if (has_pin_film(model)) contact%bearing_drag = unloaded_torque(model%bearing%film)*contact%relative_spin
-   end subroutine set_speeds
+   end subroutine set_bearing_drag
 
    !> Does the roller turn on a pin with an oil film?
    pure function has_pin_film(model) result(has)
@@ -112,11 +123,11 @@ contains
       !> Derivative [N m s/rad]
       real(wp) :: slope
 
-      ! Torque and its derivative over the logarithm of the load [N m]
-      real(wp) :: torque, by_load
+      ! Torque and its derivatives over the logarithms of load and reversal spin [N m]
+      real(wp) :: torque, by_load, by_reversal
 
       if (has_curved_bearing(model)) then
-         call loaded_torque(model%bearing, load, spin, torque, by_load, slope)
+         call loaded_torque(model%bearing, load, spin, torque, by_load, slope, by_reversal)
       else
          slope = bearing_torque_slope(model%bearing%friction_coefficient, load, model%bearing%radius, spin, &
             & model%bearing%reversal_spin)
@@ -292,7 +303,8 @@ contains
       ! Torque of the load [N m]
       real(wp) :: torque
 
-      call loaded_torque(model%bearing, contact%load, contact%relative_spin, torque, parts%bearing_by_load, parts%bearing_by_spin)
+      call loaded_torque(model%bearing, contact%load, contact%relative_spin, torque, parts%bearing_by_load, &
+         & parts%bearing_by_spin, parts%bearing_by_reversal)
       contact%bearing_torque = torque + contact%bearing_drag
    end subroutine load_bearing
 
@@ -373,5 +385,27 @@ contains
             & model%bearing%reversal_spin)
       end if
    end function follow_contact
+
+   !> Derivative of the torque of the roller's bearing over the logarithm of the spin over which it reverses.
+   pure function bearing_by_reversal(model, contact, parts) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> What slopes are made of, where it touches
+      type(parts_t), intent(in) :: parts
+      !> Derivative [N m]
+      real(wp) :: slope
+
+      slope = 0.0_wp
+      if (allocated(model%drag)) slope = drag_torque_by_reversal(model%drag, contact%relative_spin)
+      if (.not. contact%is_touching) return
+      if (has_curved_bearing(model)) then
+         slope = slope + parts%bearing_by_reversal
+      else if (allocated(model%bearing)) then
+         slope = slope - contact%relative_spin*bearing_torque_slope(model%bearing%friction_coefficient, contact%load, &
+            & model%bearing%radius, contact%relative_spin, model%bearing%reversal_spin)
+      end if
+   end function bearing_by_reversal
 
 end module camroller_contact_forces

@@ -119,8 +119,9 @@ module camroller_contact_state
       type(line_lengths_t) :: lengths_by_load, lengths_by_radius
       !> 2 R/r_R - 1 [-]
       real(wp) :: rolling_part
-      !> Derivatives of the torque of a pin with a film over ln(load) [N m] and spin [N m s/rad], less that without load
-      real(wp) :: bearing_by_load = 0.0_wp, bearing_by_spin = 0.0_wp
+      !> Derivatives of the torque of a curved bearing over ln(load) [N m], spin [N m s/rad] and ln(reversal spin) [N m], less that
+      !> without load
+      real(wp) :: bearing_by_load = 0.0_wp, bearing_by_spin = 0.0_wp, bearing_by_reversal = 0.0_wp
    end type parts_t
 
    !> A direction in which a contact may move

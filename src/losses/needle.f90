@@ -56,15 +56,15 @@ module camroller_needle
 contains
 
    !> Make a bearing ready.
-   subroutine new_bearing_part(part, bearing, inner_radius, is_flexible, has_others, error)
+   subroutine new_bearing_part(part, bearing, inner_radius, has_others, error)
       !> Ready for evaluation
       type(bearing_part_t), intent(out) :: part
       !> As a deck has it
       type(needle_bearing_t), intent(in) :: bearing
       !> Inner radius of the roller [m]
       real(wp), intent(in) :: inner_radius
-      !> Is the train flexible? Has the case a numerical film or a drag of needles?
-      logical, intent(in) :: is_flexible, has_others
+      !> Has the case a numerical film or a drag of needles?
+      logical, intent(in) :: has_others
       !> Deck error: unknown kind, or numbers that its film cannot have
       type(error_t), allocatable, intent(out) :: error
 
@@ -76,9 +76,9 @@ contains
       part%radius = friction_radius(bearing, inner_radius)
       part%reversal_ratio = bearing%reversal_ratio
       if (choice /= kind_journal .and. choice /= kind_skf) return
-      if (is_flexible .or. has_others) then
+      if (has_others) then
          call raise(error, kind_deck, "needle_bearing: kind '"//trim(bearing%kind)// &
-            & "' is not combined with &dynamics, &ehl or &needle_drag")
+            & "' is not combined with &ehl or &needle_drag")
          return
       end if
       part%friction_coefficient = 0.0_wp
@@ -103,15 +103,16 @@ contains
    end subroutine set_bearing_oil
 
    !> Torque of a bearing whose torque and load are not in proportion, less that without load, and its derivatives.
-   pure subroutine loaded_torque(part, load, spin, torque, by_load, by_spin)
+   pure subroutine loaded_torque(part, load, spin, torque, by_load, by_spin, by_reversal)
       !> The bearing, with a film or SKF's model
       type(bearing_part_t), intent(in) :: part
       !> Load [N], spin of the roller relative to the finger [rad/s]
       real(wp), intent(in) :: load, spin
       !> Torque against the spin [N m]
       real(wp), intent(out) :: torque
-      !> Its derivatives over the logarithm of the load [N m] and over the spin [N m s/rad]
-      real(wp), intent(out) :: by_load, by_spin
+      !> Its derivatives over the logarithm of the load [N m], over the spin [N m s/rad], and over the logarithm of the spin over
+      !> which it reverses [N m]
+      real(wp), intent(out) :: by_load, by_spin, by_reversal
 
       type(pin_state_t) :: pin
       type(skf_state_t) :: needles
@@ -121,11 +122,13 @@ contains
          torque = pin%torque
          by_load = pin%by_load
          by_spin = pin%by_spin
+         by_reversal = pin%by_reversal
       else
          call solve_skf(part%skf, load, spin, part%reversal_spin, needles)
          torque = needles%torque
          by_load = needles%by_load
          by_spin = needles%by_spin
+         by_reversal = needles%by_reversal
       end if
    end subroutine loaded_torque
 

@@ -11,7 +11,8 @@ module camroller_needle_drag
    implicit none
    private
 
-   public :: needle_drag_t, drag_part_t, new_drag_part, set_drag_oil, set_drag_speed, drag_torque, drag_torque_slope
+   public :: needle_drag_t, drag_part_t, new_drag_part, set_drag_oil, set_drag_speed, drag_torque, drag_torque_slope, &
+      & drag_torque_by_reversal
 
    !> Drag, as a deck has it
    type :: needle_drag_t
@@ -43,20 +44,16 @@ module camroller_needle_drag
 contains
 
    !> Make the drag ready.
-   subroutine new_drag_part(part, drag, is_flexible, error)
+   subroutine new_drag_part(part, drag, error)
       !> Ready for evaluation
       type(drag_part_t), intent(out) :: part
       !> As a deck has it
       type(needle_drag_t), intent(in) :: drag
-      !> Is the train flexible?
-      logical, intent(in) :: is_flexible
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
       if (.not. (drag%pitch_diameter > 0.0_wp .and. drag%factor >= 0.0_wp .and. drag%reversal_ratio > 0.0_wp)) then
          call raise(error, kind_deck, "needle_drag: pitch diameter and reversal ratio must be positive, the factor not negative")
-      else if (is_flexible) then
-         call raise(error, kind_deck, "needle_drag is not part of flexible trains, &dynamics")
       end if
       part%least = drag%factor*per_volume*floor*drag%pitch_diameter**3
       part%reversal_ratio = drag%reversal_ratio
@@ -112,5 +109,21 @@ contains
       if (abs(spin) >= part%limit) slope = slope + 2.0_wp/3.0_wp*growth/spin*part_of_sign
       slope = part%least*slope
    end function drag_torque_slope
+
+   !> Derivative of that torque over the logarithm of the spin over which it reverses.
+   elemental function drag_torque_by_reversal(part, spin) result(slope)
+      !> The drag
+      type(drag_part_t), intent(in) :: part
+      !> Spin of the roller relative to the finger [rad/s]
+      real(wp), intent(in) :: spin
+      !> Derivative [N m]
+      real(wp) :: slope
+
+      real(wp) :: part_of_sign ! tanh(spin/reversal spin) [-]
+
+      part_of_sign = tanh(spin/part%reversal_spin)
+      slope = -part%least*max(abs(spin)/part%limit, 1.0_wp)**(2.0_wp/3.0_wp)*(spin/part%reversal_spin)*(1.0_wp - part_of_sign) &
+         & *(1.0_wp + part_of_sign)
+   end function drag_torque_by_reversal
 
 end module camroller_needle_drag

@@ -57,8 +57,9 @@ module camroller_pin_film
    type :: pin_state_t
       !> Torque on the roller against its spin, less that without load [N m]
       real(wp) :: torque = 0.0_wp
-      !> Its derivatives over the logarithm of the load [N m] and over the spin [N m s/rad]
-      real(wp) :: by_load = 0.0_wp, by_spin = 0.0_wp
+      !> Its derivatives over the logarithm of the load [N m], over the spin [N m s/rad], and over the logarithm of the spin over
+      !> which it reverses [N m]
+      real(wp) :: by_load = 0.0_wp, by_spin = 0.0_wp, by_reversal = 0.0_wp
       !> Eccentricity over clearance [-], smallest film [m], asperities' load along the line of centres over the load [-]
       real(wp) :: eccentricity = 0.0_wp, film = 0.0_wp, asperity_share = 0.0_wp
    end type pin_state_t
@@ -159,6 +160,7 @@ contains
       state%by_load = part_of_spin*slope/balance%slope
       state%by_spin = part_of_spin**2/magnitude*(whole - rubbing - slope*balance%by_speed/balance%slope) &
          & + whole*(reversal_spin/magnitude)**2/magnitude
+      state%by_reversal = part_of_spin*(reversal_spin/magnitude)**2*(-rubbing - slope*balance%by_speed/balance%slope)
    end subroutine solve_pin
 
    !> Loads of film and asperities on a pin at the eccentricity that they hold it at.

@@ -51,8 +51,9 @@ module camroller_skf_bearing
    type :: skf_state_t
       !> Torque on the roller against its spin [N m]
       real(wp) :: torque = 0.0_wp
-      !> Its derivatives over the logarithm of the load [N m] and over the spin [N m s/rad]
-      real(wp) :: by_load = 0.0_wp, by_spin = 0.0_wp
+      !> Its derivatives over the logarithm of the load [N m], over the spin [N m s/rad], and over the logarithm of the spin over
+      !> which it reverses [N m]
+      real(wp) :: by_load = 0.0_wp, by_spin = 0.0_wp, by_reversal = 0.0_wp
    end type skf_state_t
 
    !> Powers of diameter, load and viscosity times speed in the rolling torque [-]
@@ -145,6 +146,7 @@ contains
       state%torque = sign_part*(rolling + sliding)
       state%by_load = sign_part*(load_power*rolling + sliding)
       state%by_spin = (rolling + sliding)*(1.0_wp - sign_part)*(1.0_wp + sign_part)/reversal_spin + by_speed*sign_over_spin
+      state%by_reversal = -spin/reversal_spin*(rolling + sliding)*(1.0_wp - sign_part)*(1.0_wp + sign_part)
    end subroutine solve_skf
 
 end module camroller_skf_bearing

@@ -203,6 +203,11 @@ contains
                call check_scaled(error, pin%by_spin, (high%torque - low%torque)/(2.0_wp*step), &
                   & abs(pin%by_spin) + abs(pin%torque)*h/step, tolerance, "over the spin, "//trim(pin_law_names(law)))
                if (allocated(error)) return
+               call solve_pin(part, loads(i), spins(k), reversal*(1.0_wp - h), low)
+               call solve_pin(part, loads(i), spins(k), reversal*(1.0_wp + h), high)
+               call check_scaled(error, pin%by_reversal, (high%torque - low%torque)/(2.0_wp*h), &
+                  & abs(pin%by_reversal) + abs(pin%torque)*1.0e-3_wp, tolerance, "over the spin of reversal")
+               if (allocated(error)) return
             end do
          end do
       end do

@@ -121,6 +121,11 @@ contains
                call check_scaled(error, state%by_spin, (high%torque - low%torque)/(2.0_wp*step), &
                   & abs(state%by_spin) + abs(state%torque)*h/step, tolerance, "over the spin")
                if (allocated(error)) return
+               call solve_skf(part, loads(i), spins(k), reversal*(1.0_wp - h), low)
+               call solve_skf(part, loads(i), spins(k), reversal*(1.0_wp + h), high)
+               call check_scaled(error, state%by_reversal, (high%torque - low%torque)/(2.0_wp*h), &
+                  & abs(state%by_reversal) + abs(state%torque)*1.0e-4_wp, tolerance, "over the spin of reversal")
+               if (allocated(error)) return
             end do
          end do
       end do

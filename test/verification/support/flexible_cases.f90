@@ -4,13 +4,14 @@ module flexible_cases
    use camroller_case, only : case_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
+   use camroller_needle, only : kind_journal, kind_skf, roller_bearing_names
    use camroller_samples, only : sample_independent
    use camroller_flexible_train, only : first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
       & at_plunger, at_plunger_rate, at_pressure
    implicit none
    private
 
-   public :: add_dynamics, random_state, take_friction, largest_way
+   public :: add_dynamics, choose_roller_bearing, random_state, take_friction, largest_way
 
    !> Way off the rigid train that random states go to [m]: contacts are closed in some and open in others
    real(wp), parameter :: largest_way = 3.0e-5_wp
@@ -34,6 +35,36 @@ contains
       end if
       if (has_adjuster) allocate (the_case%lash_adjuster)
    end subroutine add_dynamics
+
+   !> Give the roller one of four bearings: needles, the same with their oil's drag, needles by SKF's model, a pin with a film.
+   subroutine choose_roller_bearing(the_case, number)
+      !> The case, with needles
+      type(case_t), intent(inout) :: the_case
+      !> Which, from 0
+      integer, intent(in) :: number
+
+      associate (bearing => the_case%needle_bearing)
+         select case (number)
+         case (1)
+            allocate (the_case%needle_drag)
+            the_case%needle_drag%factor = 12.0_wp
+            the_case%needle_drag%pitch_diameter = 10.22e-3_wp
+         case (2)
+            bearing%kind = roller_bearing_names(kind_skf)
+            bearing%friction_coefficient = 0.15_wp
+            bearing%skf%rolling = 1.2e-6_wp
+            bearing%skf%sliding = 1.5e-3_wp
+            bearing%skf%geometry = 5.0_wp
+         case (3)
+            bearing%kind = roller_bearing_names(kind_journal)
+            bearing%friction_coefficient = 0.1_wp
+            bearing%film%width = 9.0e-3_wp
+            bearing%film%radial_clearance = 20.0e-6_wp
+            bearing%film%roughness = 0.3e-6_wp
+            bearing%film%modulus = 180.0e9_wp
+         end select
+      end associate
+   end subroutine choose_roller_bearing
 
    !> Take friction out of a case, and dampers where that is asked for.
    subroutine take_friction(the_case, has_dampers)
