@@ -10,6 +10,7 @@ module camroller_flexible_setup
    use camroller_kinematics, only : linkage_t, position_t, evaluate_position
    use camroller_dynamics, only : train_t
    use camroller_pivot, only : pivot_t
+   use camroller_pivot_friction, only : largest_slope, pivot_part_t
    use camroller_torque, only : normal_direction
    use camroller_spring_modes, only : new_spring_modes, effective_mass
    use camroller_lash_adjuster, only : new_adjuster
@@ -18,7 +19,7 @@ module camroller_flexible_setup
    implicit none
    private
 
-   public :: rest_t, set_flexible, find_rest, base_load, seat_sink
+   public :: rest_t, set_flexible, check_ball, find_rest, base_load, seat_sink
 
    !> The train at rest on the base circle
    type :: rest_t
@@ -29,6 +30,35 @@ module camroller_flexible_setup
    end type rest_t
 
 contains
+
+   !> Refuse a finger that jams on its ball: whose friction would grow by nearly as much as the finger's acceleration, which it
+   !> takes away, changes the ball's force.
+   subroutine check_ball(flexible, train, ball, error)
+      !> The train
+      type(flexible_t), intent(in) :: flexible
+      !> Its masses
+      type(train_t), intent(in) :: train
+      !> Friction of the finger on its ball; not allocated without any
+      type(pivot_part_t), allocatable, intent(in) :: ball
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Change of the ball's force by a moment on the finger, at most [1/m]; mass that moves with the pivot [kg]
+      real(wp) :: gain, mass
+
+      if (.not. allocated(ball)) return
+      associate (moment => flexible%finger_mass*flexible%finger_centre)
+         gain = moment/train%finger_inertia
+         if (allocated(flexible%adjuster)) then
+            mass = flexible%finger_mass + flexible%adjuster%given%plunger_mass
+            gain = moment*(mass + flexible%finger_mass)/(mass*train%finger_inertia - moment**2)
+         end if
+      end associate
+      gain = gain*ball%law%coefficient*ball%ball_radius
+      if (gain > largest_slope) call raise(error, kind_deck, "finger_pivot: the finger jams on its ball, whose friction would "// &
+         & "change its own force by up to "//number_text(gain, 3)//" of it; lower finger_pivot.friction_coefficient or "// &
+         & "finger_pivot.ball_radius_mm")
+   end subroutine check_ball
 
    !> Constants of a case's flexible train.
    subroutine set_flexible(flexible, case, linkage, train, pivot, modulus, load, error)
@@ -60,6 +90,7 @@ contains
       flexible%finger_centre = pivot%centre
       flexible%axis = exp(cmplx(0.0_wp, -pivot%axis_angle, wp))
       flexible%tilt_cosine = cos(pivot%tilt)
+      flexible%tilt_sine = -sin(pivot%tilt)
       call set_spring(flexible, case, error)
       if (allocated(error)) return
       call set_rest(flexible, case, linkage, train, load, error)

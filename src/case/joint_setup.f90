@@ -7,7 +7,7 @@ module camroller_joint_setup
    use camroller_case, only : case_t, energy_names
    use camroller_kinematics, only : linkage_t
    use camroller_lift, only : lift_law_t, evaluate_lift
-   use camroller_joints, only : joints_t
+   use camroller_joints, only : joints_t, has_sharp
    use camroller_stem_friction, only : new_tip_part, new_seal_part, new_side_part
    use camroller_pivot_friction, only : new_pivot_part
    implicit none
@@ -34,8 +34,6 @@ contains
          & allocated(case%finger_pivot))) return
       if (case%energy /= energy_names(1)) then
          call raise(error, kind_deck, "friction at valve tip, stem and pivot needs energy = 'consistent'")
-      else if (allocated(case%dynamics)) then
-         call raise(error, kind_deck, "friction at valve tip, stem and pivot is not part of flexible trains, &dynamics")
       else if (allocated(case%finger_pivot) .and. .not. case%masses%finger > 0.0_wp) then
          call raise(error, kind_deck, "finger_pivot: the force of the pivot needs the finger's mass, masses.finger_kg")
       end if
@@ -57,9 +55,13 @@ contains
             & largest_offset(case%guide_side_load%stem_axis, linkage, lift_law), error)
          if (allocated(error)) return
       end if
-      if (.not. allocated(case%finger_pivot)) return
-      allocate (joints%pivot)
-      call new_pivot_part(joints%pivot, case%finger_pivot, error)
+      if (allocated(case%finger_pivot)) then
+         allocate (joints%pivot)
+         call new_pivot_part(joints%pivot, case%finger_pivot, error)
+         if (allocated(error)) return
+      end if
+      if (allocated(case%dynamics) .and. has_sharp(joints)) call raise(error, kind_deck, "friction at valve "// &
+         & "tip, stem and pivot of a flexible train, &dynamics, needs reversal speeds above zero")
    end subroutine set_joints
 
    !> Largest distance of the pad's contact with the tip from the stem's axis, from the closed valve to full lift.

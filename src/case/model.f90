@@ -18,7 +18,7 @@ module camroller_model
    use camroller_input_ramp, only : ramp_t
    use camroller_pivot, only : pivot_t, new_pivot
    use camroller_flexible_parts, only : flexible_t, set_oil
-   use camroller_flexible_setup, only : base_load, set_flexible
+   use camroller_flexible_setup, only : base_load, check_ball, set_flexible
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at
    use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
@@ -487,6 +487,8 @@ contains
          allocate (model%flexible)
          call set_flexible(model%flexible, case, model%linkage, model%train, model%pivot, model%modulus, &
             & model%base_circle_load, error)
+         if (.not. allocated(error) .and. allocated(model%joints)) call check_ball(model%flexible, model%train, &
+            & model%joints%pivot, error)
       end if
    end subroutine set_effects
 

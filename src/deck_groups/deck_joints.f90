@@ -161,8 +161,7 @@ contains
          if (.not. has_group(settings, trim(groups(i)))) cycle
          if (i <= with_balance .and. get_word(settings, "case", "energy") == energy_names(energy_source)) call &
             & complain_about_group(mistakes, settings, trim(groups(i)), "&"//trim(groups(i))//" needs case energy = 'consistent'")
-         if (i <= with_balance .and. has_group(settings, "dynamics")) call complain_about_group(mistakes, settings, &
-            & trim(groups(i)), "&"//trim(groups(i))//" is not part of a flexible train, &dynamics; leave out one of both")
+         if (i <= with_balance .and. has_group(settings, "dynamics")) call reversal_is_spread(settings, trim(groups(i)), mistakes)
          if (i <= with_coefficient) call curve_is_given(settings, trim(groups(i)), mistakes)
       end do
       if (has_group(settings, "finger_pivot") .and. has_group(settings, "masses")) then
@@ -198,5 +197,25 @@ contains
          call complain(mistakes, settings, group, "law", "law 'stribeck' needs '"//trim(stribeck_keys(i))//"'")
       end do
    end subroutine curve_is_given
+
+   !> A flexible train has friction whose reversal is spread over a speed: where it jumped, finger and valve would stick.
+   subroutine reversal_is_spread(settings, group, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group of the joint
+      character(len=*), intent(in) :: group
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      type(sliding_t) :: standard
+      ! Speed over which friction reverses [m/s]
+      real(wp) :: speed
+
+      speed = standard%reversal_speed
+      call take(settings, group, "reversal_speed_m_s", speed)
+      if (speed > 0.0_wp .or. is_wrong(settings, group, "reversal_speed_m_s")) return
+      call complain(mistakes, settings, group, "reversal_speed_m_s", "'reversal_speed_m_s' must be above 0 "// &
+         & "in a flexible train, &dynamics: friction that jumps is not part of it")
+   end subroutine reversal_is_spread
 
 end module camroller_deck_joints

@@ -67,6 +67,8 @@ module camroller_flexible_parts
       complex(wp) :: axis
       !> Cosine of the angle from the valve's axis to the adjuster's, chi_h - chi [-]
       real(wp) :: tilt_cosine
+      !> Way of a pivot across the valve's axis, over its way along the adjuster's, sin(chi - chi_h) [-]
+      real(wp) :: tilt_sine = 0.0_wp
       !> Modes of the spring; without any it has no mass of its own
       type(spring_modes_t) :: modes
       !> Lash adjuster; the pivot is fixed without one

@@ -6,7 +6,8 @@ module camroller_flexible_energy
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_torque, only : contact_power
-   use camroller_torque_list, only : torque_count, of_contact, of_needle, of_needle_drag, of_guide, of_damping
+   use camroller_torque_list, only : torque_count, of_contact, of_needle, of_needle_drag, of_guide, of_damping, &
+      & of_tip, of_seal, of_guide_side, of_pivot
    use camroller_contact_compliance, only : series_energy
    use camroller_flexible_parts, only : damper_count
    use camroller_spring_modes, only : mode_energy
@@ -64,6 +65,9 @@ contains
          if (allocated(model%drag)) powers%losses(of_needle_drag) = contact%bearing_drag*contact%relative_spin
          powers%losses(of_needle) = contact%bearing_torque*contact%relative_spin - powers%losses(of_needle_drag)
          powers%losses(of_guide) = now%guide_drag*state(at_speed)**2
+         if (allocated(model%joints)) powers%losses([of_tip, of_seal, of_guide_side, of_pivot]) = [ &
+            & now%stem%tip_friction%value*now%stem%tip_speed%value, now%stem%seal_friction%value*state(at_speed), &
+            & now%stem%side_friction%value*state(at_speed), now%ball%moment*state(at_finger_rate)]
          powers%dampers(at_cam) = (contact%load - now%cam%elastic)*now%cam%rate
          powers%dampers(at_pad) = (now%pad%force - now%pad%elastic)*now%pad%rate
          powers%dampers(at_seat) = (now%seat%force - now%seat%elastic)*now%seat%rate

@@ -14,7 +14,8 @@ module camroller_flexible_follower
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, at_finger, at_finger_rate, &
       & at_lift, at_plunger, at_plunger_rate, at_speed, first_mode, state_size
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
-   use camroller_torque_list, only : of_geometric, of_roller_inertia, of_residual
+   use camroller_joint_forces, only : joint_values_t
+   use camroller_torque_list, only : of_geometric, of_guide_side, of_pivot, of_residual, of_roller_inertia, of_seal, of_tip
    use camroller_flexible_measures, only : pivot_force
    implicit none
    private
@@ -61,8 +62,27 @@ contains
       if (present(work)) work = powers%gas - powers%gallery
       call add_sums(state)
       state%flexible%damping_powers = powers%dampers
+      if (allocated(model%joints)) call take_joints(model, now, state)
       call take_values(model, angle, train, now, state, status)
    end subroutine evaluate_follower
+
+   !> Forces of the sliding joints.
+   pure subroutine take_joints(model, now, state)
+      !> The model, with joints
+      type(model_t), intent(in) :: model
+      !> Everything at the state of the train
+      type(flexible_state_t), intent(in) :: now
+      !> In: torques; out: with the joints
+      type(state_t), intent(inout) :: state
+
+      associate (stem => now%stem, torques => state%torques)
+         state%joints = joint_values_t(tip_force=stem%tip_force%value, tip_friction=stem%tip_friction%value, &
+            & tip_speed=stem%tip_speed%value, seal_friction=stem%seal_friction%value, side_friction=stem%side_friction%value, &
+            & upper_force=stem%upper_force, lower_force=stem%lower_force, pivot_force=0.0_wp, torque_tip=torques(of_tip), &
+            & torque_seal=torques(of_seal), torque_side=torques(of_guide_side), torque_pivot=torques(of_pivot))
+      end associate
+      if (allocated(model%joints%pivot)) state%joints%pivot_force = abs(now%ball%force)
+   end subroutine take_joints
 
    !> Everything at one angle of a turn that was integrated.
    subroutine follower_on_path(model, path, resolution, angle, hint, state, error)
@@ -177,6 +197,7 @@ contains
          values%joint_force = pivot_force(model, train, now)
          ! The spring's mass beside that of its modes moves with the valve
          values%spring_force = now%pad%force + now%seat%force - now%gas_force - now%guide_drag*train(at_speed) &
+            & - now%stem%seal_friction%value - now%stem%side_friction%value &
             & - (model%train%valve_mass - model%flexible%modes%mass/3.0_wp)*now%valve_acceleration
          values%plunger_travel = now%pivot
          values%chamber_pressure = now%pressure

@@ -12,16 +12,16 @@ module camroller_flexible_jacobian
    use camroller_contact_forces, only : motion_t, slopes_t, follow_contact, bearing_by_reversal, has_oil_drag, &
       & oil_drag_slope
    use camroller_flexible_geometry, only : dot, cross, imaginary
+   use camroller_flexible_inertia, only : invert_inertia
+   use camroller_flexible_joints, only : columns, variables, by_finger, by_finger_rate, by_pivot, by_pivot_rate, by_sliding, &
+      & by_angle, by_lift, by_speed, by_pressure, follow_stem, follow_ball, stem_slopes_t
+   use camroller_joint_forces, only : has_pivot_friction
    use camroller_flexible_train, only : flexible_state_t, first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
       & at_plunger, at_plunger_rate, at_pressure, largest_state
    implicit none
    private
 
    public :: slopes_of
-
-   !> The six variables
-   integer, parameter :: variables = 6, by_finger = 1, by_finger_rate = 2, by_pivot = 3, by_pivot_rate = 4, by_sliding = 5, &
-      & by_angle = 6
 
    !> How the geometry follows the six variables
    type :: turns_t
@@ -58,35 +58,56 @@ contains
 
       type(turns_t) :: turns
       type(follow_t) :: follow
-      ! Accelerations of finger and pivot, rate of the sliding speed over the six variables [any]; over the forces at the pad [any]
-      real(wp) :: finger(variables), pivot(variables), sliding(variables), by_pad(3)
+      type(stem_slopes_t) :: stem
+      ! Accelerations of finger and pivot over the six variables, lift and speed of the valve, and pressure [any]; rate of the
+      ! sliding speed over the six, and over the three [any]; over the forces at the pad [any]
+      real(wp) :: finger(columns), pivot(columns), sliding(variables), beyond(by_lift:by_pressure), by_pad(3)
       ! Pad's force over gamma, its rate, y, its rate, lift, speed [any]; accelerations of finger and pivot over moment and force
       ! [1/kg m^2], [1/kg m], [1/kg]
       real(wp) :: pad(6), inverse(2, 2)
+      integer :: column
 
       call turn_geometry(model, state, now, turns)
       call follow_forces(model, now, turns, follow)
-      call invert_inertia(model, now, inverse)
+      call invert_inertia(model, now%centre_slope, inverse)
       pad = pad_slopes(model, state, now)
       jacobian = 0.0_wp
       angle_slope = 0.0_wp
 
-      call finger_slopes(model, state, now, follow, inverse, finger, pivot)
+      finger = 0.0_wp
+      pivot = 0.0_wp
+      call finger_slopes(model, state, now, follow, inverse, finger(:variables), pivot(:variables))
       ! What the pad's force and the plunger's do to the accelerations: of finger, of pivot, of the sliding speed
       by_pad(:2) = matmul(inverse, [-model%linkage%b*now%pad_sine, model%flexible%tilt_cosine])
       finger(:4) = finger(:4) + by_pad(1)*pad(:4)
       pivot(:4) = pivot(:4) + by_pad(2)*pad(:4)
-      sliding = sliding_slopes(model, state, now, turns, follow, finger, pivot)
       by_pad(3) = sliding_force(model, now, by_pad(1), by_pad(2))
+      finger(by_lift:by_speed) = by_pad(1)*pad(5:6)
+      pivot(by_lift:by_speed) = by_pad(2)*pad(5:6)
+      beyond(by_lift:by_speed) = by_pad(3)*pad(5:6)
+      if (allocated(model%flexible%adjuster)) then
+         finger(by_pressure) = inverse(1, 2)*model%flexible%adjuster%area
+         pivot(by_pressure) = inverse(2, 2)*model%flexible%adjuster%area
+         beyond(by_pressure) = sliding_force(model, now, finger(by_pressure), pivot(by_pressure))
+      end if
+      if (allocated(model%joints)) then
+         call follow_stem(model, state, now, pad, inverse, stem, finger, pivot)
+         if (has_pivot_friction(model)) call follow_ball(model, state, now, cam_forces(now, turns, follow), pad, stem, inverse, &
+            & finger, pivot)
+         do column = by_lift, by_pressure
+            beyond(column) = sliding_force(model, now, finger(column), pivot(column))
+         end do
+      end if
+      sliding = sliding_slopes(model, state, now, turns, follow, finger(:variables), pivot(:variables))
 
-      call put(model, at_finger_rate, finger, by_pad(1)*pad(5:6), jacobian, angle_slope)
-      call put(model, at_sliding, sliding, by_pad(3)*pad(5:6), jacobian, angle_slope)
+      call put(model, at_finger_rate, finger(:variables), finger(by_lift:), jacobian, angle_slope)
+      call put(model, at_sliding, sliding, beyond, jacobian, angle_slope)
       jacobian(at_finger, at_finger_rate) = 1.0_wp
       if (allocated(model%flexible%adjuster)) then
-         call put(model, at_plunger_rate, pivot, by_pad(2)*pad(5:6), jacobian, angle_slope)
-         call put_adjuster(model, now, inverse, jacobian)
+         call put(model, at_plunger_rate, pivot(:variables), pivot(by_lift:), jacobian, angle_slope)
+         call put_adjuster(model, now, jacobian)
       end if
-      call put_valve(model, angle, now, pad, jacobian, angle_slope)
+      call put_valve(model, angle, now, pad - stem%valve, jacobian, angle_slope)
       jacobian = jacobian/model%speed
       angle_slope = angle_slope/model%speed
    end subroutine slopes_of
@@ -168,6 +189,22 @@ contains
             & + contact%tangential_force*dot(touch%arm, touch%forward)
       end associate
    end subroutine follow_forces
+
+   !> How the force of the cam on the roller follows.
+   pure function cam_forces(now, turns, follow) result(slopes)
+      !> Everything at the state
+      type(flexible_state_t), intent(in) :: now
+      !> How geometry and forces follow
+      type(turns_t), intent(in) :: turns
+      type(follow_t), intent(in) :: follow
+      !> Change of the force [N over the unit of the variable]
+      complex(wp) :: slopes(variables)
+
+      associate (touch => now%touch, contact => now%contact)
+         slopes = (follow%load + contact%tangential_force*turns%normal)*touch%normal &
+            & + (contact%load*turns%normal - follow%tangential)*touch%forward
+      end associate
+   end function cam_forces
 
    !> How the oil in the roller's bearing follows, which holds the roller without contact too.
    pure subroutine follow_drag(model, now, turns, follow)
@@ -263,27 +300,6 @@ contains
       end associate
       call add_reversal(model, now, follow)
    end subroutine follow_friction
-
-   !> Accelerations of finger and pivot over moment and force along the axis.
-   pure subroutine invert_inertia(model, now, inverse)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Everything at the state
-      type(flexible_state_t), intent(in) :: now
-      !> Rows: finger, pivot; columns: moment, axial force [1/kg m^2], [1/kg m], [1/kg]
-      real(wp), intent(out) :: inverse(2, 2)
-
-      ! Mass along the axis [kg], inertia between both [kg m], determinant [kg^2 m^2]
-      real(wp) :: mass, coupling, determinant
-
-      inverse = 0.0_wp
-      inverse(1, 1) = 1.0_wp/model%train%finger_inertia
-      if (.not. allocated(model%flexible%adjuster)) return
-      mass = model%flexible%finger_mass + model%flexible%adjuster%given%plunger_mass
-      coupling = model%flexible%finger_mass*now%centre_slope
-      determinant = mass*model%train%finger_inertia - coupling**2
-      inverse = reshape([mass, -coupling, -coupling, model%train%finger_inertia], [2, 2])/determinant
-   end subroutine invert_inertia
 
    !> The pad's force over gamma, its rate, y, its rate, lift and speed of the valve.
    pure function pad_slopes(model, state, now) result(slopes)
@@ -401,35 +417,34 @@ contains
       rate = dot(now%touch%forward, pivot*model%flexible%axis + imaginary*finger*now%touch%arm)
    end function sliding_force
 
-   !> Put slopes over the six variables and over the valve's lift and speed into their places.
-   pure subroutine put(model, row, slopes, by_valve, jacobian, angle_slope)
+   !> Put slopes over the six variables, and over lift and speed of the valve and pressure, into their places.
+   pure subroutine put(model, row, slopes, beyond, jacobian, angle_slope)
       !> The model
       type(model_t), intent(in) :: model
       !> Row of the matrix
       integer, intent(in) :: row
-      !> Slopes over the six variables, and over lift and speed of the valve [any]
-      real(wp), intent(in) :: slopes(variables), by_valve(2)
+      !> Slopes over the six variables, and over lift and speed of the valve and pressure [any]
+      real(wp), intent(in) :: slopes(variables), beyond(3)
       !> The matrix and the slope over the cam angle [any]
       real(wp), intent(inout) :: jacobian(:, :), angle_slope(:)
 
       jacobian(row, at_finger) = slopes(by_finger)
       jacobian(row, at_finger_rate) = slopes(by_finger_rate)
       jacobian(row, at_sliding) = slopes(by_sliding)
-      jacobian(row, [at_lift, at_speed]) = by_valve
+      jacobian(row, [at_lift, at_speed]) = beyond(:2)
       angle_slope(row) = slopes(by_angle)
       if (.not. allocated(model%flexible%adjuster)) return
       jacobian(row, at_plunger) = slopes(by_pivot)
       jacobian(row, at_plunger_rate) = slopes(by_pivot_rate)
+      jacobian(row, at_pressure) = beyond(3)
    end subroutine put
 
-   !> What the pressure does, and the chamber's own equation.
-   pure subroutine put_adjuster(model, now, inverse, jacobian)
+   !> The plunger's way and the chamber's own equation.
+   pure subroutine put_adjuster(model, now, jacobian)
       !> The model, with an adjuster
       type(model_t), intent(in) :: model
       !> Everything at the state
       type(flexible_state_t), intent(in) :: now
-      !> Accelerations over moment and force [1/kg m^2], [1/kg m], [1/kg]
-      real(wp), intent(in) :: inverse(2, 2)
       !> The matrix [any]
       real(wp), intent(inout) :: jacobian(:, :)
 
@@ -437,9 +452,6 @@ contains
       real(wp) :: modulus, slope, volume
 
       associate (adjuster => model%flexible%adjuster)
-         jacobian(at_finger_rate, at_pressure) = inverse(1, 2)*adjuster%area
-         jacobian(at_plunger_rate, at_pressure) = inverse(2, 2)*adjuster%area
-         jacobian(at_sliding, at_pressure) = sliding_force(model, now, inverse(1, 2)*adjuster%area, inverse(2, 2)*adjuster%area)
          jacobian(at_plunger, at_plunger_rate) = 1.0_wp
          call bulk_modulus(adjuster%given, now%pressure, modulus, slope)
          volume = chamber_volume(adjuster, now%pivot)
@@ -458,7 +470,8 @@ contains
       real(wp), intent(in) :: angle
       !> Everything there
       type(flexible_state_t), intent(in) :: now
-      !> The pad's force over gamma, its rate, y, its rate, lift and speed of the valve [N over the unit of the variable]
+      !> The pad's force over gamma, its rate, y, its rate, lift and speed of the valve, less the friction of the stem [N over the
+      !> unit of the variable]
       real(wp), intent(in) :: pad(6)
       !> The matrix and the slope over the cam angle [any]
       real(wp), intent(inout) :: jacobian(:, :), angle_slope(:)

@@ -18,11 +18,16 @@ module camroller_flexible_train
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, start_heat, prepare_contact, evaluate_contact, &
       & release_contact, set_bearing_drag, set_surfaces
    use camroller_flexible_geometry, only : touch_t, find_touch, dot, cross, imaginary
+   use camroller_dual, only : dual_t
+   use camroller_joint_forces, only : has_pivot_friction
+   use camroller_stem_friction, only : stem_t, stem_motion_t, rub_stem
+   use camroller_flexible_inertia, only : solve_finger
+   use camroller_flexible_pivot, only : ball_t, hold_ball
    implicit none
    private
 
    public :: flexible_state_t, resolution_t, push_t, state_size, first_mode, evaluate_train, rates_of, pad_approach, &
-      & pad_direction
+      & pad_direction, stem_motion, valve_axis
    public :: at_finger, at_finger_rate, at_lift, at_speed, at_sliding, at_plunger, at_plunger_rate, at_pressure, largest_state
 
    !> Places in the state
@@ -64,6 +69,9 @@ module camroller_flexible_train
       real(wp) :: pad_cosine, pad_sine
       !> Cylinder pressure times valve area [N]
       real(wp) :: gas_force = 0.0_wp
+      !> Friction at valve tip and stem, where the case has any; of the finger on its pivot
+      type(stem_t) :: stem
+      type(ball_t) :: ball
       !> Pull of the spring's modes beside its static force [N]
       real(wp) :: mode_pull = 0.0_wp
       !> Drag of the valve's guide per speed [N s/m]
@@ -293,7 +301,29 @@ contains
          first = first_mode(model)
          now%mode_pull = valve_pull(flexible%modes, state(first::2), state(first + 1::2))
       end associate
+      if (allocated(model%joints)) call rub_stem(model%joints%tip, model%joints%seal, model%joints%side, &
+         & stem_motion(model, state, now), now%stem)
    end subroutine set_valve_forces
+
+   !> Motion of pad and stem as their friction has it, with the pad's force.
+   pure function stem_motion(model, state, now) result(motion)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Pivot and pad
+      type(flexible_state_t), intent(in) :: now
+      !> The motion, without slopes
+      type(stem_motion_t) :: motion
+
+      motion%lift%value = state(at_lift)
+      motion%valve_speed%value = state(at_speed)
+      motion%finger_speed%value = state(at_finger_rate)
+      motion%centre_height%value = model%linkage%b*now%pad_cosine
+      motion%arm%value = model%linkage%b*now%pad_sine + now%pivot*model%flexible%tilt_sine
+      motion%pivot_speed%value = now%pivot_rate*model%flexible%tilt_sine
+      motion%axial_force%value = now%pad%force
+   end function stem_motion
 
    !> Direction of the arm from the pivot to the pad, seen from the valve's axis: exp(i (gamma + chi)).
    pure function pad_direction(linkage, arm) result(direction)
@@ -342,21 +372,25 @@ contains
       associate (flexible => model%flexible, touch => now%touch, contact => now%contact, eps => model%linkage%sense, &
          & rate => state(at_finger_rate))
          now%valve_acceleration = (now%pad%force + now%seat%force - now%gas_force - model%train%stiffness*(state(at_lift) &
-            & + model%train%precompression) - now%guide_drag*state(at_speed) + now%mode_pull)/flexible%effective_mass
+            & + model%train%precompression) - now%guide_drag*state(at_speed) + now%mode_pull &
+            & - now%stem%seal_friction%value - now%stem%side_friction%value)/flexible%effective_mass
 
          force = contact%load*touch%normal - contact%tangential_force*touch%forward
-         moment = cross(touch%arm, force) + eps*contact%bearing_torque - now%pad%force*model%linkage%b*now%pad_sine
+         moment = cross(touch%arm, force) + eps*contact%bearing_torque - now%pad%force*model%linkage%b*now%pad_sine &
+            & - now%stem%tip_friction%value*now%stem%height%value
          centre = touch%arm*conjg(flexible%axis)*(flexible%finger_centre/model%linkage%a)
          now%centre_slope = -aimag(centre)
          now%centre_curvature = -real(centre, wp)
          if (allocated(flexible%adjuster)) then
             coupling = flexible%finger_mass*now%centre_slope
             axial = dot(flexible%axis, force) + flexible%tilt_cosine*now%pad%force + now%hydraulic_force &
-               & + now%stops(1)%force - now%stops(2)%force - flexible%finger_mass*now%centre_curvature*rate**2
+               & + now%stops(1)%force - now%stops(2)%force - flexible%finger_mass*now%centre_curvature*rate**2 &
+               & - flexible%tilt_sine*now%stem%tip_friction%value
             call solve_finger(model, coupling, axial, moment, now%pivot_acceleration, now%finger_acceleration)
          else
             now%finger_acceleration = moment/model%train%finger_inertia
          end if
+         if (has_pivot_friction(model)) call rub_ball(model, state, force, now)
 
          now%spin_acceleration = spin_acceleration(contact%traction, contact%rolling_resistance, model%roller_radius, &
             & contact%bearing_torque, model%roller_inertia)
@@ -370,29 +404,47 @@ contains
       end associate
    end subroutine accelerate
 
-   !> Accelerations of finger and plunger, which move as one along the axis.
-   pure subroutine solve_finger(model, coupling, axial, moment, pivot, finger)
-      !> The model, with an adjuster
+   !> Friction of the finger on its pivot, from accelerations without it; out: with it.
+   pure subroutine rub_ball(model, state, cam_force, now)
+      !> The model, whose pivot has friction
       type(model_t), intent(in) :: model
-      !> Inertia between both [kg m]
-      real(wp), intent(in) :: coupling
-      !> Force along the axis [N]
-      real(wp), intent(in) :: axial
-      !> Moment about the pivot [N m]
-      real(wp), intent(in) :: moment
-      !> Acceleration of the pivot [m/s^2]
-      real(wp), intent(out) :: pivot
-      !> Acceleration of the finger [rad/s^2]
-      real(wp), intent(out) :: finger
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Force of the cam on the roller [N]
+      complex(wp), intent(in) :: cam_force
+      !> In: accelerations without that friction; out: with it
+      type(flexible_state_t), intent(inout) :: now
 
-      ! Mass that moves along the axis [kg], determinant [kg^2 m^2]
-      real(wp) :: mass, determinant
+      ! Accelerations of pivot and finger by a moment on the finger [1/kg m], [1/kg m^2]
+      real(wp) :: pivot, finger
+      ! Finger's centre of mass from the pivot [m]; force of the valve on the pad [N]
+      complex(wp) :: centre, pad_force
 
-      mass = model%flexible%finger_mass + model%flexible%adjuster%given%plunger_mass
-      determinant = mass*model%train%finger_inertia - coupling**2
-      pivot = (model%train%finger_inertia*axial - coupling*moment)/determinant
-      finger = (mass*moment - coupling*axial)/determinant
-   end subroutine solve_finger
+      associate (flexible => model%flexible, arm => now%touch%arm, rate => state(at_finger_rate))
+         pivot = 0.0_wp
+         finger = 1.0_wp/model%train%finger_inertia
+         if (allocated(flexible%adjuster)) call solve_finger(model, flexible%finger_mass*now%centre_slope, 0.0_wp, 1.0_wp, &
+            & pivot, finger)
+         centre = arm*(flexible%finger_centre/model%linkage%a)
+         pad_force = (now%pad%force - imaginary*now%stem%tip_friction%value)*valve_axis(model%linkage)
+         now%ball%free = flexible%finger_mass*(now%pivot_acceleration*flexible%axis + (imaginary*now%finger_acceleration &
+            & - rate**2)*centre) - cam_force - pad_force
+         now%ball%by_moment = flexible%finger_mass*(pivot*flexible%axis + imaginary*finger*centre)
+         call hold_ball(model%joints%pivot, rate, now%ball)
+         now%pivot_acceleration = now%pivot_acceleration - pivot*now%ball%moment
+         now%finger_acceleration = now%finger_acceleration - finger*now%ball%moment
+      end associate
+   end subroutine rub_ball
+
+   !> Direction of the valve's axis towards the cam, exp(-i chi).
+   pure function valve_axis(linkage) result(axis)
+      !> Constants of the mechanism
+      type(linkage_t), intent(in) :: linkage
+      !> The direction [-]
+      complex(wp) :: axis
+
+      axis = cmplx(linkage%axis_cosine, -linkage%axis_sine, wp)
+   end function valve_axis
 
    !> Rate of change of the state with the cam angle.
    pure subroutine rates_of(model, state, now, rate)

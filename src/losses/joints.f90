@@ -9,7 +9,7 @@ module camroller_joints
    implicit none
    private
 
-   public :: joints_t, set_joint_oil, jumps_with_valve, jumps_with_tip, has_curves, has_tip_curve
+   public :: joints_t, set_joint_oil, jumps_with_valve, jumps_with_tip, has_sharp, has_curves, has_tip_curve
 
    !> Sliding joints
    type :: joints_t
@@ -43,11 +43,21 @@ contains
       !> Does it?
       logical :: jumps
 
+      jumps = has_sharp(joints)
+   end function jumps_with_valve
+
+   !> Does the friction of any joint jump where its sliding turns round?
+   pure function has_sharp(joints) result(jumps)
+      !> The joints
+      type(joints_t), intent(in) :: joints
+      !> Does it?
+      logical :: jumps
+
       jumps = jumps_with_tip(joints)
       if (allocated(joints%seal)) jumps = jumps .or. (joints%seal%lip_force > 0.0_wp .and. is_sharp(joints%seal%reversal_speed))
       if (allocated(joints%side)) jumps = jumps .or. is_sharp(joints%side%law%reversal_speed)
       if (allocated(joints%pivot)) jumps = jumps .or. is_sharp(joints%pivot%law%reversal_speed)
-   end function jumps_with_valve
+   end function has_sharp
 
    !> Does friction jump where the contact of pad and tip passes the height of the pivot?
    pure function jumps_with_tip(joints) result(jumps)

@@ -10,7 +10,8 @@ module camroller_pivot_friction
    implicit none
    private
 
-   public :: finger_pivot_t, pivot_part_t, pivot_forces_t, new_pivot_part, hold_forces, pivot_reaction, pivot_moment
+   public :: finger_pivot_t, pivot_part_t, pivot_forces_t, new_pivot_part, hold_forces, pivot_reaction, pivot_moment, &
+      & largest_slope
 
    !> Socket on ball
    type :: finger_pivot_t
@@ -35,6 +36,10 @@ module camroller_pivot_friction
       !> Angular speed of the finger, opening positive [rad/s]
       type(dual_t) :: finger_speed
    end type pivot_forces_t
+
+   !> Largest change of the ball's force that its friction may make by the finger's acceleration, over the force: nearer to one the
+   !> finger jams [-]
+   real(wp), parameter :: largest_slope = 0.9_wp
 
 contains
 

@@ -18,7 +18,7 @@ module camroller_stem_friction
 
    public :: valve_tip_t, stem_seal_t, guide_side_load_t, seal_drag_names
    public :: tip_part_t, seal_part_t, side_part_t, stem_motion_t, stem_t, new_tip_part, new_seal_part, new_side_part, &
-      & set_stem_oil, find_stem_forces
+      & set_stem_oil, find_stem_forces, rub_stem
 
    !> How the seal's viscous drag follows the oil: with its viscosity, or not
    character(len=*), parameter :: seal_drag_names(*) = [character(len=name_length) :: "viscosity", "constant"]
@@ -90,7 +90,9 @@ module camroller_stem_friction
       !> Place of the pad's centre of curvature from the pivot: along the valve's axis towards the cam, B cos(gamma + chi), and
       !> across it, B sin(gamma + chi) [m]
       type(dual_t) :: centre_height, arm
-      !> Force that valve, spring, seat, gas and drag of the guide need at the tip, F_v [N]
+      !> Speed of the pivot across the valve's axis, the pad's way over the tip away from it positive [m/s]
+      type(dual_t) :: pivot_speed
+      !> Force that valve, spring, seat, gas and drag of the guide need at the tip, F_v; of a pad that bends: its own [N]
       type(dual_t) :: axial_force
    end type stem_motion_t
 
@@ -220,16 +222,52 @@ contains
       ! Direction of the tip's sliding [-]
       type(dual_t) :: direction
 
-      stem%height = motion%centre_height
-      if (allocated(tip)) stem%height = stem%height + (-tip%pad_radius)
-      stem%tip_speed = motion%finger_speed*stem%height
-      if (allocated(tip)) direction = direction_of(stem%tip_speed, tip%law%reversal_speed)
-      if (allocated(seal)) stem%seal_friction = seal%lip_force*direction_of(motion%valve_speed, seal%reversal_speed) &
-         & + seal%drag*motion%valve_speed
+      call move_stem(tip, seal, motion, direction, stem)
       stem%tip_force = motion%axial_force + stem%seal_friction
       if (allocated(side)) call balance_stem(tip, side, motion, direction, stem)
       if (allocated(tip)) stem%tip_friction = direction*friction_limit(tip%law, stem%tip_force, stem%tip_speed)
    end subroutine find_stem_forces
+
+   !> Friction at the valve's end of a finger whose pad bends: the force of the tip is the pad's, whatever the friction.
+   pure subroutine rub_stem(tip, seal, side, motion, stem)
+      !> The parts, allocated where the case has them
+      type(tip_part_t), allocatable, intent(in) :: tip
+      type(seal_part_t), allocatable, intent(in) :: seal
+      type(side_part_t), allocatable, intent(in) :: side
+      !> Motion, and force of the pad
+      type(stem_motion_t), intent(in) :: motion
+      !> The forces
+      type(stem_t), intent(out) :: stem
+
+      ! Direction of the tip's sliding [-]
+      type(dual_t) :: direction
+
+      call move_stem(tip, seal, motion, direction, stem)
+      stem%tip_force = motion%axial_force
+      if (allocated(side)) call press_stem(tip, side, motion, direction, direction_of(motion%valve_speed, &
+         & side%law%reversal_speed), stem)
+      if (allocated(tip)) stem%tip_friction = direction*friction_limit(tip%law, stem%tip_force, stem%tip_speed)
+   end subroutine rub_stem
+
+   !> Sliding of pad and stem, and what follows from it alone.
+   pure subroutine move_stem(tip, seal, motion, direction, stem)
+      !> The parts, allocated where the case has them
+      type(tip_part_t), allocatable, intent(in) :: tip
+      type(seal_part_t), allocatable, intent(in) :: seal
+      !> Motion
+      type(stem_motion_t), intent(in) :: motion
+      !> Direction of the tip's sliding [-]
+      type(dual_t), intent(out) :: direction
+      !> Its speed, and friction of the seal
+      type(stem_t), intent(inout) :: stem
+
+      stem%height = motion%centre_height
+      if (allocated(tip)) stem%height = stem%height + (-tip%pad_radius)
+      stem%tip_speed = motion%finger_speed*stem%height + motion%pivot_speed
+      if (allocated(tip)) direction = direction_of(stem%tip_speed, tip%law%reversal_speed)
+      if (allocated(seal)) stem%seal_friction = seal%lip_force*direction_of(motion%valve_speed, seal%reversal_speed) &
+         & + seal%drag*motion%valve_speed
+   end subroutine move_stem
 
    !> Force of the tip with the guide's friction, which depends on it: Newton's method with the slope over the force.
    pure subroutine balance_stem(tip, side, motion, direction, stem)

@@ -18,7 +18,7 @@ module test_flexible_train
    use camroller_traction, only : shear_law_names, rolling_law_names
    use reference_cases, only : thesis_case, skewed_case, add_gas_force, add_heat, add_profile, make_model, set_point, &
       & point_speeds, point_viscosities
-   use flexible_cases, only : add_dynamics, choose_roller_bearing, random_state
+   use flexible_cases, only : add_dynamics, add_joints, choose_roller_bearing, random_state
    use closeness, only : check_close, check_scaled
    implicit none
    private
@@ -230,6 +230,7 @@ contains
       if (modulo(number, 3) == 1) call add_profile(case)
       call add_dynamics(case, merge(5, 0, modulo(number, 3) > 0), btest(number, 1))
       call choose_roller_bearing(case, modulo(number/4, 4))
+      call add_joints(case, modulo(number, 5))
       call make_model(case, model, error)
    end subroutine make_train
 

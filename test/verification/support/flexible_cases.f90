@@ -6,12 +6,13 @@ module flexible_cases
    use camroller_kinematics, only : position_t
    use camroller_needle, only : kind_journal, kind_skf, roller_bearing_names
    use camroller_samples, only : sample_independent
+   use camroller_sliding_friction, only : sliding_t
    use camroller_flexible_train, only : first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
       & at_plunger, at_plunger_rate, at_pressure
    implicit none
    private
 
-   public :: add_dynamics, choose_roller_bearing, random_state, take_friction, largest_way
+   public :: add_dynamics, add_joints, choose_roller_bearing, random_state, take_friction, largest_way
 
    !> Way off the rigid train that random states go to [m]: contacts are closed in some and open in others
    real(wp), parameter :: largest_way = 3.0e-5_wp
@@ -35,6 +36,54 @@ contains
       end if
       if (has_adjuster) allocate (the_case%lash_adjuster)
    end subroutine add_dynamics
+
+   !> Give the train friction at tip, stem and pivot by one of five choices, 0 for none.
+   subroutine add_joints(the_case, number)
+      !> The case
+      type(case_t), intent(inout) :: the_case
+      !> Which, from 0: none; tip and seal; tip and ends of the guide; pivot; all by Stribeck's law
+      integer, intent(in) :: number
+
+      if (any(number == [1, 2, 4])) then
+         allocate (the_case%valve_tip)
+         the_case%valve_tip%pad_radius = 8.0e-3_wp
+         call set_sliding(the_case%valve_tip%sliding, number == 4)
+      end if
+      if (any(number == [1, 4])) then
+         allocate (the_case%stem_seal)
+         the_case%stem_seal%lip_force = 8.0_wp
+         the_case%stem_seal%viscous_drag = 5.0_wp
+         the_case%stem_seal%reference_viscosity = 0.02_wp
+      end if
+      if (any(number == [2, 4])) then
+         allocate (the_case%guide_side_load)
+         the_case%guide_side_load%guide_length = 0.04_wp
+         the_case%guide_side_load%tip_height = 0.03_wp
+         the_case%guide_side_load%stem_axis = 0.034_wp
+         call set_sliding(the_case%guide_side_load%sliding, number == 4)
+      end if
+      if (number >= 3) then
+         allocate (the_case%finger_pivot)
+         the_case%finger_pivot%ball_radius = 5.0e-3_wp
+         call set_sliding(the_case%finger_pivot%sliding, number == 4)
+      end if
+   end subroutine add_joints
+
+   !> Coefficient of a joint.
+   subroutine set_sliding(sliding, has_curve)
+      !> What it is set of
+      type(sliding_t), intent(inout) :: sliding
+      !> By Stribeck's law?
+      logical, intent(in) :: has_curve
+
+      sliding%friction_coefficient = 0.1_wp
+      if (.not. has_curve) return
+      sliding%law = "stribeck"
+      sliding%decay_speed = 0.3_wp
+      sliding%viscous_part = 0.02_wp
+      sliding%reference_viscosity = 0.02_wp
+      sliding%reference_load = 300.0_wp
+   end subroutine set_sliding
 
    !> Give the roller one of four bearings: needles, the same with their oil's drag, needles by SKF's model, a pin with a film.
    subroutine choose_roller_bearing(the_case, number)
