@@ -125,6 +125,7 @@ program main
    use test_flexible_host, only : collect_flexible_host
    use test_flexible_simulation, only : collect_flexible_simulation
    use test_flexible_invariance, only : collect_flexible_invariance
+   use test_flexible_joints, only : collect_flexible_joints
    use test_flexible_parts, only : collect_flexible_parts
    use test_flexible_train, only : collect_flexible_train
    use test_flexible_twins, only : collect_flexible_twins
@@ -185,6 +186,7 @@ contains
          new_testsuite("flexible_host", collect_flexible_host), &
          new_testsuite("flexible_parts", collect_flexible_parts), &
          new_testsuite("flexible_invariance", collect_flexible_invariance), &
+         new_testsuite("flexible_joints", collect_flexible_joints), &
          new_testsuite("flexible_train", collect_flexible_train), &
          new_testsuite("flexible_twins", collect_flexible_twins), &
          new_testsuite("random_cases", collect_random_cases), &

@@ -16,7 +16,7 @@ module test_flexible_cycle
       & lowest_plunger, largest_chamber_pressure, leak_volume, residual_work, damper_works, damping_torque, lift_at_nose, &
       & speed_at_nose
    use reference_cases, only : thesis_case, make_model, set_point
-   use flexible_cases, only : add_dynamics
+   use flexible_cases, only : add_dynamics, stiff_case
    use camroller_train_outlook, only : find_outlook, outlook_t
    use labelled_table, only : label_length, read_table
    use closeness, only : check_close, check_scaled
@@ -403,30 +403,6 @@ contains
       call measure(reference(2500.0_wp, .true.), "rodas5p", 4.0e-4_wp, values, cycle, error)
    end subroutine test_mixture
 
-   !> A train at 300 rev/min with more stiffness; a root of that keeps the damping ratio.
-   function stiffer(factor, modes) result(the_case)
-      !> Stiffness over the usual [-]
-      real(wp), intent(in) :: factor
-      !> Modes of the spring
-      integer, intent(in) :: modes
-      type(case_t) :: the_case
-
-      the_case = thesis_case()
-      call set_point(the_case, 10.0_wp*pi, 0.01_wp)
-      call add_dynamics(the_case, modes, .false.)
-      associate (dynamics => the_case%dynamics)
-         dynamics%finger_stiffness = factor*dynamics%finger_stiffness
-         dynamics%pad_stiffness = factor*dynamics%pad_stiffness
-         dynamics%seat_stiffness = factor*dynamics%seat_stiffness
-         dynamics%contact_damping = sqrt(factor)*dynamics%contact_damping
-         dynamics%pad_damping = sqrt(factor)*dynamics%pad_damping
-         dynamics%seat_damping = sqrt(factor)*dynamics%seat_damping
-      end associate
-      ! Cam and roller give way as Palmgren says whatever the finger: with twice the length they do by 2^0.8 less, and so on
-      the_case%materials%cam_modulus = factor**(1.0_wp/0.9_wp)*the_case%materials%cam_modulus
-      the_case%materials%roller_modulus = factor**(1.0_wp/0.9_wp)*the_case%materials%roller_modulus
-   end function stiffer
-
    !> Stiffness times 4 brings the lift error to a quarter.
    subroutine test_rigid_lift(error)
       type(error_type), allocatable, intent(out) :: error
@@ -438,7 +414,7 @@ contains
 
       do i = 1, 3
          factor = 4.0_wp**(i - 1)
-         call measure(stiffer(factor, 5), "rodas5p", tolerance/factor, values, cycle, error)
+         call measure(stiff_case(factor, 5), "rodas5p", tolerance/factor, values, cycle, error)
          if (allocated(error)) return
          errors(i) = values(least_lift_error)
       end do
@@ -468,7 +444,7 @@ contains
       differences = 0.0_wp
       do i = 1, 3
          factor = 4.0_wp**(i - 1)
-         the_case = stiffer(factor, 0)
+         the_case = stiff_case(factor, 0)
          call measure(the_case, "rodas5p", tolerance/factor, values, cycle, error)
          if (.not. allocated(error)) call make_model(the_case, model, error)
          deallocate (the_case%dynamics)

@@ -26,7 +26,7 @@ module test_hard_dynamics
    character(len=name_length), parameter :: periodic(*) = [character(len=name_length) :: "pumped_up_adjuster", &
       & "noisy_lift_table", "soft_seat", "cold_start_stiff_leak"]
    character(len=name_length), parameter :: flying(*) = [character(len=name_length) :: "spring_in_resonance", &
-      & "mechanical_lash", "overspeed", "overspeed_adjuster"]
+      & "mechanical_lash", "overspeed", "overspeed_adjuster", "narrow_reversals"]
    character(len=*), parameter :: hard = "hard/dynamics/"
    !> Turns in which a period is found to a tenth of a tolerance of 1e-6; a cold adjuster takes 36
    integer, parameter :: most_cycles = 100
@@ -173,8 +173,9 @@ contains
       if (allocated(error)) return
       call check_close(error, values(largest_load), right(largest_load), several*tolerances(2), deck_name//": largest load")
       if (allocated(error)) return
-      ! With two decades of the tolerance an error falls by two; by one where chance is against it
-      call check(error, errors(2) < 0.1_wp*errors(1), deck_name//": the error of the losses does not fall with the tolerance")
+      ! With two decades of the tolerance an error falls by two; by one where chance is against it, or less where the first one is
+      ! small by chance: 5e-6 at a tolerance of 1e-3 with narrow reversals
+      call check(error, errors(2) < max(0.1_wp*errors(1), 0.2_wp*tolerances(2)), deck_name//": the error of the losses does not fall with the tolerance")
    end subroutine converge
 
    !> Friction stops the roller within 1e-10 rad, and the steps that follow are those of a roller at rest.

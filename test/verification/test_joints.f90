@@ -52,7 +52,8 @@ contains
          new_unittest("friction that jumps has a stop on both sides of each jump and none inside a dwell", test_stops), &
          new_unittest("friction that reverses over a small speed tends to friction that jumps", test_limit), &
          new_unittest("joints with zero friction change no result", test_no_friction), &
-         new_unittest("a jammed stem, energy 'source', a flexible train and a missing finger mass are refused", test_refusals) &
+         new_unittest("a jammed stem, energy 'source', a jump in a flexible train, a missing finger mass are refused", &
+            & test_refusals) &
          ]
    end subroutine collect_joints
 
@@ -422,7 +423,7 @@ contains
       type(error_t), allocatable :: failure
       integer :: i
       character(len=*), parameter :: words(5) = [character(len=32) :: "jams in its guide", "energy = 'consistent'", &
-         & "flexible trains", "masses.finger_kg", "positive decay speed"]
+         & "reversal speeds above", "masses.finger_kg", "positive decay speed"]
 
       do i = 1, size(words)
          call impossible_joints(i, case)
@@ -449,6 +450,7 @@ contains
          joined%energy = "source"
       case (3)
          allocate (joined%dynamics)
+         joined%finger_pivot%sliding%reversal_speed = 0.0_wp
       case (4)
          joined%masses%finger_inertia = 1.0e-5_wp
          joined%masses%finger = 0.0_wp

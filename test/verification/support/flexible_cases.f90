@@ -9,10 +9,11 @@ module flexible_cases
    use camroller_sliding_friction, only : sliding_t
    use camroller_flexible_train, only : first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
       & at_plunger, at_plunger_rate, at_pressure
+   use reference_cases, only : set_point, thesis_case
    implicit none
    private
 
-   public :: add_dynamics, add_joints, choose_roller_bearing, random_state, take_friction, largest_way
+   public :: add_dynamics, add_joints, choose_roller_bearing, random_state, stiff_case, take_friction, largest_way
 
    !> Way off the rigid train that random states go to [m]: contacts are closed in some and open in others
    real(wp), parameter :: largest_way = 3.0e-5_wp
@@ -36,6 +37,31 @@ contains
       end if
       if (has_adjuster) allocate (the_case%lash_adjuster)
    end subroutine add_dynamics
+
+   !> A train at 300 rev/min with more stiffness; a root of that keeps the damping ratio.
+   function stiff_case(factor, modes) result(the_case)
+      !> Stiffness over the usual [-]
+      real(wp), intent(in) :: factor
+      !> Modes of the spring
+      integer, intent(in) :: modes
+      !> The case
+      type(case_t) :: the_case
+
+      the_case = thesis_case()
+      call set_point(the_case, 10.0_wp*pi, 0.01_wp)
+      call add_dynamics(the_case, modes, .false.)
+      associate (dynamics => the_case%dynamics)
+         dynamics%finger_stiffness = factor*dynamics%finger_stiffness
+         dynamics%pad_stiffness = factor*dynamics%pad_stiffness
+         dynamics%seat_stiffness = factor*dynamics%seat_stiffness
+         dynamics%contact_damping = sqrt(factor)*dynamics%contact_damping
+         dynamics%pad_damping = sqrt(factor)*dynamics%pad_damping
+         dynamics%seat_damping = sqrt(factor)*dynamics%seat_damping
+      end associate
+      ! Cam and roller give way as Palmgren says whatever the finger: with twice the length they do by 2^0.8 less, and so on
+      the_case%materials%cam_modulus = factor**(1.0_wp/0.9_wp)*the_case%materials%cam_modulus
+      the_case%materials%roller_modulus = factor**(1.0_wp/0.9_wp)*the_case%materials%roller_modulus
+   end function stiff_case
 
    !> Give the train friction at tip, stem and pivot by one of five choices, 0 for none.
    subroutine add_joints(the_case, number)

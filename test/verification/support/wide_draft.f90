@@ -138,8 +138,7 @@ contains
       draft%has_hours = number < style%hours_share .and. .not. draft%has_dynamics
    end subroutine draft_oil_and_train
 
-   !> May a deck have a group, after what it has already? Sliding joints need a rigid train and a closed balance, that of the pivot
-   !> a finger's mass.
+   !> May a deck have a group, after what it has already? Sliding joints need a closed balance, that of the pivot a finger's mass.
    pure function may_have(draft, text, group)
       !> What is decided
       type(draft_t), intent(in) :: draft
@@ -150,7 +149,7 @@ contains
       logical :: may_have
 
       may_have = .true.
-      if (any(group == joint_groups)) may_have = .not. (has_source(text) .or. draft%has_dynamics)
+      if (any(group == joint_groups)) may_have = .not. has_source(text)
       if (group == "roller_profile") may_have = index(text, "&ehl") == 0
       if (any(group == [character(len=16) :: "bearing_asperity", "belt_pull", "shaft_drag"])) may_have = draft%has_cams
       ! Oil leaves a long bearing at its sides in the width of a diameter alone, and widths are drawn without a look at that
@@ -160,7 +159,7 @@ contains
       if (group == "friction_modifier" .or. group == "boundary_law" .or. group == "wear") may_have = index(text, "&asperity") > 0
       if (group == "tribofilm") may_have = index(text, "&asperity") > 0
       if (group == "running_in") may_have = index(text, "&tribofilm") > 0
-      if (group == "needle_drag") may_have = .not. draft%has_dynamics .and. all(deck_word(text, "needle_bearing", "kind") &
+      if (group == "needle_drag") may_have = all(deck_word(text, "needle_bearing", "kind") &
          & /= [character(len=11) :: "journal", "needles_skf"])
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
    end function may_have
@@ -395,7 +394,7 @@ contains
          is_allowed = words == key%default .or. index(" short_ocvirk finite ", " "//deck_word(text, "cam_bearings", "law")//" ") > 0
       case ("kind")
          is_allowed = all(words /= [character(len=13) :: "'journal'", "'needles_skf'"]) .or. &
-            & .not. (draft%has_dynamics .or. index(text, "&ehl") > 0)
+            & index(text, "&ehl") == 0
       case ("sae_grade")
          is_allowed = words == key%default .neqv. draft%oil_by == oil_by_grade
       case ("energy", "mobilisation")
