@@ -14,7 +14,8 @@ module camroller_flexible_jacobian
    use camroller_flexible_geometry, only : dot, cross, imaginary
    use camroller_flexible_inertia, only : invert_inertia
    use camroller_flexible_joints, only : columns, variables, by_finger, by_finger_rate, by_pivot, by_pivot_rate, by_sliding, &
-      & by_angle, by_lift, by_speed, by_pressure, follow_stem, follow_ball, stem_slopes_t
+      & by_angle, by_lift, by_speed, by_pressure, follow_stem, follow_ball, pad_slopes, &
+      & stem_slopes_t
    use camroller_joint_forces, only : has_pivot_friction
    use camroller_flexible_train, only : flexible_state_t, first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
       & at_plunger, at_plunger_rate, at_pressure, largest_state
@@ -300,27 +301,6 @@ contains
       end associate
       call add_reversal(model, now, follow)
    end subroutine follow_friction
-
-   !> The pad's force over gamma, its rate, y, its rate, lift and speed of the valve.
-   pure function pad_slopes(model, state, now) result(slopes)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> The state [state]
-      real(wp), intent(in) :: state(:)
-      !> Everything there
-      type(flexible_state_t), intent(in) :: now
-      !> The slopes [N over the unit of the variable]
-      real(wp) :: slopes(6)
-
-      associate (pad => now%pad, b => model%linkage%b, tilt => model%flexible%tilt_cosine)
-         slopes(by_finger) = pad%by_approach*b*now%pad_sine + pad%by_rate*b*now%pad_cosine*state(at_finger_rate)
-         slopes(by_finger_rate) = pad%by_rate*b*now%pad_sine
-         slopes(by_pivot) = -pad%by_approach*tilt
-         slopes(by_pivot_rate) = -pad%by_rate*tilt
-         slopes(5) = -pad%by_approach
-         slopes(6) = -pad%by_rate
-      end associate
-   end function pad_slopes
 
    !> Accelerations of finger and pivot over the six variables, the pad's force as it is.
    pure subroutine finger_slopes(model, state, now, follow, inverse, finger, pivot)

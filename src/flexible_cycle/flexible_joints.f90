@@ -1,11 +1,10 @@
-!> How friction at valve tip, stem and pivot changes the accelerations of a flexible train.
+!> How the pad's force follows the state of a flexible train, and how friction at valve tip, stem and pivot changes its accelerations.
 !>
-!> In: everything at a state, slopes of the pad's force. Out: what friction adds to the slopes of the accelerations of finger and
+!> In: everything at a state. Out: slopes of the pad's force; what friction adds to the slopes of the accelerations of finger and
 !> pivot, and of the force on the valve. The pad's force, and with it the friction at the valve's end, follows six variables: the
 !> finger's angle and rate, place and speed of the pivot, lift and speed of the valve.
 module camroller_flexible_joints
    use camroller_kinds, only : wp
-   use camroller_dual, only : dual_t
    use camroller_model, only : model_t
    use camroller_stem_friction, only : stem_motion_t, stem_t, rub_stem
    use camroller_flexible_geometry, only : dot, imaginary
@@ -14,7 +13,7 @@ module camroller_flexible_joints
    private
 
    public :: columns, variables, by_finger, by_finger_rate, by_pivot, by_pivot_rate, by_sliding, by_angle, by_lift, by_speed, &
-      & by_pressure, stem_slopes_t, follow_stem, follow_ball
+      & by_pressure, stem_slopes_t, pad_slopes, follow_stem, follow_ball
 
    !> The six variables of geometry and contact; then those that the accelerations follow beside them
    integer, parameter :: variables = 6, columns = 9, by_finger = 1, by_finger_rate = 2, by_pivot = 3, by_pivot_rate = 4, &
@@ -29,6 +28,27 @@ module camroller_flexible_joints
    end type stem_slopes_t
 
 contains
+
+   !> The pad's force over gamma, its rate, y, its rate, lift and speed of the valve.
+   pure function pad_slopes(model, state, now) result(slopes)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> The slopes [N over the unit of the variable]
+      real(wp) :: slopes(6)
+
+      associate (pad => now%pad, b => model%linkage%b, tilt => model%flexible%tilt_cosine)
+         slopes(by_finger) = pad%by_approach*b*now%pad_sine + pad%by_rate*b*now%pad_cosine*state(at_finger_rate)
+         slopes(by_finger_rate) = pad%by_rate*b*now%pad_sine
+         slopes(by_pivot) = -pad%by_approach*tilt
+         slopes(by_pivot_rate) = -pad%by_rate*tilt
+         slopes(5) = -pad%by_approach
+         slopes(6) = -pad%by_rate
+      end associate
+   end function pad_slopes
 
    !> Add what the friction at the valve's end does.
    pure subroutine follow_stem(model, state, now, pad, inverse, slopes, finger, pivot)
@@ -123,7 +143,7 @@ contains
       ! Change of the moment of the friction [N m over the unit of the variable]
       real(wp) :: moment(columns)
 
-      associate (flexible => model%flexible, ball => now%ball, rate => state(at_finger_rate))
+      associate (flexible => model%flexible, ball => now%rubbing%ball, rate => state(at_finger_rate))
          if (.not. abs(ball%force) > 0.0_wp) return
          direction = ball%force/abs(ball%force)
          centre = now%touch%arm*(flexible%finger_centre/model%linkage%a)

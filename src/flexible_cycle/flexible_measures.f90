@@ -433,7 +433,7 @@ contains
          else
             force = -dot(flexible%axis, now%contact%load*touch%normal &
                & - now%contact%tangential_force*touch%forward) - flexible%tilt_cosine*now%pad%force &
-               & + flexible%tilt_sine*now%stem%tip_friction%value &
+               & + flexible%tilt_sine*now%tip_friction &
                & + flexible%finger_mass*(now%centre_slope*now%finger_acceleration + now%centre_curvature*state(at_finger_rate)**2)
          end if
       end associate

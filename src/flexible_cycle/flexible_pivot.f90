@@ -41,8 +41,8 @@ contains
       !> In: force without the friction; out: with it
       type(ball_t), intent(inout) :: ball
 
-      ! Friction over size of the force and rate [N m]; size of the force [N], its slope over the moment [1/m]; change [N m]
-      type(dual_t) :: friction
+      type(dual_t) :: friction ! moment by the force that is there [N m]
+      ! Size of the force [N], its slope over the moment [1/m]; change of the moment [N m]
       real(wp) :: size, slope, change
       integer :: i
 

@@ -18,7 +18,6 @@ module camroller_flexible_train
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, start_heat, prepare_contact, evaluate_contact, &
       & release_contact, set_bearing_drag, set_surfaces
    use camroller_flexible_geometry, only : touch_t, find_touch, dot, cross, imaginary
-   use camroller_dual, only : dual_t
    use camroller_joint_forces, only : has_pivot_friction
    use camroller_stem_friction, only : stem_t, stem_motion_t, rub_stem
    use camroller_flexible_inertia, only : solve_finger
@@ -54,6 +53,12 @@ module camroller_flexible_train
       real(wp) :: by_approach = 0.0_wp, by_rate = 0.0_wp
    end type push_t
 
+   !> Friction of the sliding joints: at valve tip and stem, of the finger on its pivot
+   type :: rubbing_t
+      type(stem_t) :: stem
+      type(ball_t) :: ball
+   end type rubbing_t
+
    !> Everything at one state
    type :: flexible_state_t
       type(touch_t) :: touch
@@ -69,9 +74,10 @@ module camroller_flexible_train
       real(wp) :: pad_cosine, pad_sine
       !> Cylinder pressure times valve area [N]
       real(wp) :: gas_force = 0.0_wp
-      !> Friction at valve tip and stem, where the case has any; of the finger on its pivot
-      type(stem_t) :: stem
-      type(ball_t) :: ball
+      !> Friction of pad and tip [N], its moment against the finger's opening [N m]; friction of seal and guide on the stem [N]
+      real(wp) :: tip_friction = 0.0_wp, tip_moment = 0.0_wp, stem_friction = 0.0_wp
+      !> Friction of the joints, where the case has any
+      type(rubbing_t), allocatable :: rubbing
       !> Pull of the spring's modes beside its static force [N]
       real(wp) :: mode_pull = 0.0_wp
       !> Drag of the valve's guide per speed [N s/m]
@@ -301,8 +307,14 @@ contains
          first = first_mode(model)
          now%mode_pull = valve_pull(flexible%modes, state(first::2), state(first + 1::2))
       end associate
-      if (allocated(model%joints)) call rub_stem(model%joints%tip, model%joints%seal, model%joints%side, &
-         & stem_motion(model, state, now), now%stem)
+      if (.not. allocated(model%joints)) return
+      allocate (now%rubbing)
+      associate (stem => now%rubbing%stem, joints => model%joints)
+         call rub_stem(joints%tip, joints%seal, joints%side, stem_motion(model, state, now), stem)
+         now%tip_friction = stem%tip_friction%value
+         now%tip_moment = stem%tip_friction%value*stem%height%value
+         now%stem_friction = stem%seal_friction%value + stem%side_friction%value
+      end associate
    end subroutine set_valve_forces
 
    !> Motion of pad and stem as their friction has it, with the pad's force.
@@ -373,11 +385,11 @@ contains
          & rate => state(at_finger_rate))
          now%valve_acceleration = (now%pad%force + now%seat%force - now%gas_force - model%train%stiffness*(state(at_lift) &
             & + model%train%precompression) - now%guide_drag*state(at_speed) + now%mode_pull &
-            & - now%stem%seal_friction%value - now%stem%side_friction%value)/flexible%effective_mass
+            & - now%stem_friction)/flexible%effective_mass
 
          force = contact%load*touch%normal - contact%tangential_force*touch%forward
          moment = cross(touch%arm, force) + eps*contact%bearing_torque - now%pad%force*model%linkage%b*now%pad_sine &
-            & - now%stem%tip_friction%value*now%stem%height%value
+            & - now%tip_moment
          centre = touch%arm*conjg(flexible%axis)*(flexible%finger_centre/model%linkage%a)
          now%centre_slope = -aimag(centre)
          now%centre_curvature = -real(centre, wp)
@@ -385,7 +397,7 @@ contains
             coupling = flexible%finger_mass*now%centre_slope
             axial = dot(flexible%axis, force) + flexible%tilt_cosine*now%pad%force + now%hydraulic_force &
                & + now%stops(1)%force - now%stops(2)%force - flexible%finger_mass*now%centre_curvature*rate**2 &
-               & - flexible%tilt_sine*now%stem%tip_friction%value
+               & - flexible%tilt_sine*now%tip_friction
             call solve_finger(model, coupling, axial, moment, now%pivot_acceleration, now%finger_acceleration)
          else
             now%finger_acceleration = moment/model%train%finger_inertia
@@ -420,19 +432,19 @@ contains
       ! Finger's centre of mass from the pivot [m]; force of the valve on the pad [N]
       complex(wp) :: centre, pad_force
 
-      associate (flexible => model%flexible, arm => now%touch%arm, rate => state(at_finger_rate))
+      associate (flexible => model%flexible, arm => now%touch%arm, ball => now%rubbing%ball, rate => state(at_finger_rate))
          pivot = 0.0_wp
          finger = 1.0_wp/model%train%finger_inertia
          if (allocated(flexible%adjuster)) call solve_finger(model, flexible%finger_mass*now%centre_slope, 0.0_wp, 1.0_wp, &
             & pivot, finger)
          centre = arm*(flexible%finger_centre/model%linkage%a)
-         pad_force = (now%pad%force - imaginary*now%stem%tip_friction%value)*valve_axis(model%linkage)
-         now%ball%free = flexible%finger_mass*(now%pivot_acceleration*flexible%axis + (imaginary*now%finger_acceleration &
+         pad_force = (now%pad%force - imaginary*now%tip_friction)*valve_axis(model%linkage)
+         ball%free = flexible%finger_mass*(now%pivot_acceleration*flexible%axis + (imaginary*now%finger_acceleration &
             & - rate**2)*centre) - cam_force - pad_force
-         now%ball%by_moment = flexible%finger_mass*(pivot*flexible%axis + imaginary*finger*centre)
-         call hold_ball(model%joints%pivot, rate, now%ball)
-         now%pivot_acceleration = now%pivot_acceleration - pivot*now%ball%moment
-         now%finger_acceleration = now%finger_acceleration - finger*now%ball%moment
+         ball%by_moment = flexible%finger_mass*(pivot*flexible%axis + imaginary*finger*centre)
+         call hold_ball(model%joints%pivot, rate, ball)
+         now%pivot_acceleration = now%pivot_acceleration - pivot*ball%moment
+         now%finger_acceleration = now%finger_acceleration - finger*ball%moment
       end associate
    end subroutine rub_ball
 

@@ -175,7 +175,8 @@ contains
       if (allocated(error)) return
       ! With two decades of the tolerance an error falls by two; by one where chance is against it, or less where the first one is
       ! small by chance: 5e-6 at a tolerance of 1e-3 with narrow reversals
-      call check(error, errors(2) < max(0.1_wp*errors(1), 0.2_wp*tolerances(2)), deck_name//": the error of the losses does not fall with the tolerance")
+      call check(error, errors(2) < max(0.1_wp*errors(1), 0.2_wp*tolerances(2)), deck_name// &
+         & ": the error of the losses does not fall with the tolerance")
    end subroutine converge
 
    !> Friction stops the roller within 1e-10 rad, and the steps that follow are those of a roller at rest.
