@@ -17,7 +17,8 @@ ELSEWHERE = ("numerical_film", "thesis_as_printed")
 # Flexible trains take turns from rest on: few cases, and errors that are seen to change all the same. With an adjuster rounding decides
 # after how many turns the motion is taken for periodic: at 1e-3 that alone is 1e-3 of an extreme
 CHANGES = {deck: ("--set", f"sweep.values_1={speeds}", "--set", f"numerics.tolerance={tolerance}")
-           for deck, speeds, tolerance in (("dynamics", "900,2900", "1e-3"), ("lash_adjuster", "900", "1e-4"))}
+           for deck, speeds, tolerance in (("dynamics", "900,2900", "1e-3"), ("lash_adjuster", "900", "1e-4"),
+                                          ("flexible_friction", "900", "1e-4"))}
 DECKS = sorted(path.stem for path in (ROOT / "decks").glob("*.nml") if path.stem not in ELSEWHERE)
 RESULTS = ("mean_torque_drive", "mean_torque_friction", "mean_torque_contact", "min_film_thickness_min",
            "max_hertz_pressure", "max_sliding_speed", "revolution_slip", "dynamic_load_max", "lift_error_min", "seating_speed",

@@ -7,6 +7,7 @@ module test_flexible_simulation
    use closeness, only : check_close, check_scaled, has_failed
    use deck_cases, only : get_deck_case
    use driven_trains, only : train, steady, inputs_at, engine_case
+   use flexible_cases, only : add_joints, choose_roller_bearing
    implicit none
    private
 
@@ -31,7 +32,7 @@ contains
 
       testsuite = [ &
          new_unittest("steady inputs lead to the periodic results of a run: means, smallest and largest load", test_periodic), &
-         new_unittest("with a lash adjuster too, at the supply pressure of the host", test_supply), &
+         new_unittest("with an adjuster, friction of joints and a pin too, at the supply pressure of the host", test_supply), &
          new_unittest("with inputs that go round with the cam, results converge with second order in the host's step", &
             & test_order), &
          new_unittest("a step longer than half a turn gives what its halves give", test_long_step), &
@@ -126,6 +127,8 @@ contains
 
       the_case = train(600.0_wp, 0, .true., 1.0e-3_wp)
       the_case%lash_adjuster%spring_force = 10.0_wp
+      call choose_roller_bearing(the_case, 3)
+      call add_joints(the_case, 4)
       other = the_case
       other%lash_adjuster%supply_pressure = 0.12e6_wp
       inputs = steady(the_case)
@@ -160,8 +163,8 @@ contains
       integer, parameter :: steps(*) = [68, 270, 1080, 4320]
       type(turn_t) :: turns(size(steps))
       type(error_t), allocatable :: failure
-      !> Errors of three lengths of the step
-      real(wp) :: errors(5, 3)
+      !> Errors of three lengths of the step, sizes of what they are errors of
+      real(wp) :: errors(5, 3), sizes(5)
       integer :: i
 
       do i = 1, size(steps)
@@ -176,8 +179,10 @@ contains
       call check(error, all(errors(:, 2:) < errors(:, :2)/10.0_wp), "results are not of second order in the step")
       if (allocated(error)) return
       ! a straight line over one degree of a ripple with a period of 90 degrees is off by (4 degree)^2/8 of its size
-      call check(error, all(errors(:, 2) < 6.0e-4_wp*abs([turns(4)%means, turns(4)%sliding_speed, turns(4)%lift])), &
-         & "errors at one degree are large")
+      sizes = abs([turns(4)%means, turns(4)%sliding_speed, turns(4)%lift])
+      ! the drive's mean, with work that is stored, may be any part of that of the friction
+      sizes(1) = maxval(sizes(:2))
+      call check(error, all(errors(:, 2) < 6.0e-4_wp*sizes), "errors at one degree are large")
    end subroutine test_order
 
    subroutine test_long_step(error)
@@ -223,12 +228,16 @@ contains
       type(outcome_t) :: outcome
       type(error_t), allocatable :: failure
       type(inputs_t) :: ends(2)
+      type(case_t) :: the_case
       !> Energies: drive, loss, stored at the start and at the end, trapezoids of the drive [J]; torque before [N m]; residual [W]
       real(wp) :: drive, lost, stored(2), trapezoids, before, residual, largest
       integer, parameter :: steps = 2*720
       integer :: i
 
-      call start_simulation(simulation, train(600.0_wp, 2, .false., 1.0e-3_wp), 0.0_wp, failure)
+      the_case = train(600.0_wp, 2, .false., 1.0e-3_wp)
+      call choose_roller_bearing(the_case, 1)
+      call add_joints(the_case, 2)
+      call start_simulation(simulation, the_case, 0.0_wp, failure)
       drive = 0.0_wp
       lost = 0.0_wp
       residual = 0.0_wp

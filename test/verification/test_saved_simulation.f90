@@ -40,6 +40,8 @@ contains
       call compare_bits("decks/dynamics.nml", [200.0_wp, 260.0_wp, 350.0_wp], [360.0_wp, 361.0_wp, 363.0_wp], error)
       if (allocated(error)) return
       call compare_bits("decks/lash_adjuster.nml", [50.0_wp, 60.0_wp, 65.0_wp], [360.0_wp, 361.0_wp, 363.0_wp], error)
+      if (allocated(error)) return
+      call compare_bits("decks/flexible_friction.nml", [50.0_wp, 60.0_wp, 65.0_wp], [360.0_wp, 361.0_wp, 363.0_wp], error)
    end subroutine test_trains
 
    !> The films of the start serve at the speed of the block, which solving them there would change.

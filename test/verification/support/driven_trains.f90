@@ -1,7 +1,7 @@
 !> Cases with a flexible train that a host drives, and the inputs that it gives.
 module driven_trains
    use camroller, only : wp, pi, case_t, numerics_t, inputs_t
-   use flexible_cases, only : add_dynamics
+   use flexible_cases, only : add_dynamics, add_joints, choose_roller_bearing
    use reference_cases, only : thesis_case, set_point, add_gas_force
    implicit none
    private
@@ -62,6 +62,8 @@ contains
       the_case%operating_point%oil_temperature = 350.0_wp
       the_case%numerics%tolerance = tolerance
       call add_gas_force(the_case)
+      call choose_roller_bearing(the_case, 2)
+      call add_joints(the_case, 4)
    end function engine_case
 
 end module driven_trains
