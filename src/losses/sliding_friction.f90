@@ -11,7 +11,8 @@ module camroller_sliding_friction
    implicit none
    private
 
-   public :: sliding_t, sliding_law_t, sliding_law_names, new_sliding_law, set_duty, friction_limit, place_on_curve, direction_of
+   public :: sliding_t, sliding_law_t, sliding_law_names, new_sliding_law, set_duty, friction_limit, place_on_curve, &
+      & speed_of_peak, direction_of
 
    !> Coefficients of friction: constant, or falling from boundary to mixed friction and rising with the viscous part
    character(len=*), parameter :: sliding_law_names(*) = [character(len=name_length) :: "constant", "stribeck"]
@@ -138,17 +139,31 @@ contains
       !> Both logarithms; below zero where there is no such speed [-]
       real(wp) :: place(2)
 
-      ! Speed in which the friction falls to 1/e; speed of the largest friction [m/s]
-      real(wp) :: decay, top
+      real(wp) :: decay, top ! speed in which the friction falls to 1/e; speed of the largest friction [m/s]
 
       place = -1.0_wp
       if (.not. (law%has_curve .and. force > 0.0_wp .and. law%duty > 0.0_wp)) return
       decay = law%decay_speed*force/law%duty
       place(2) = log(max(abs(speed), tiny(1.0_wp))/(-log(epsilon(1.0_wp))*decay))
-      if (.not. law%reversal_speed > 0.0_wp) return
-      top = 0.5_wp*law%reversal_speed*asinh(2.0_wp*decay/law%reversal_speed)
+      top = speed_of_peak(law, force)
+      if (.not. top > 0.0_wp) return
       place(1) = log(max(abs(speed), tiny(1.0_wp))/top)
    end function place_on_curve
+
+   !> Sliding speed at which friction by Stribeck's curve is largest, where the spread of its reversal has ended and its fall begins;
+   !> zero where there is no such speed.
+   pure function speed_of_peak(law, force) result(speed)
+      !> The law
+      type(sliding_law_t), intent(in) :: law
+      !> Force between the surfaces [N]
+      real(wp), intent(in) :: force
+      !> The speed [m/s]
+      real(wp) :: speed
+
+      speed = 0.0_wp
+      if (.not. (law%has_curve .and. min(force, law%duty, law%reversal_speed) > 0.0_wp)) return
+      speed = 0.5_wp*law%reversal_speed*asinh(2.0_wp*law%decay_speed*force/(law%duty*law%reversal_speed))
+   end function speed_of_peak
 
    !> Direction of sliding, from -1 to 1: `tanh(v/v_r)`, or the sign where the reversal is sharp.
    elemental function direction_of(speed, reversal_speed) result(direction)

@@ -11,6 +11,7 @@ module camroller_flexible_report
    use camroller_sampled_extremes, only : add_sample, samples_t, start_samples
    use camroller_flexible_cycle, only : longest_period
    use camroller_flexible_follower, only : evaluate_follower
+   use camroller_flexible_spikes, only : has_spikes, spike_angles
    use camroller_flexible_parts, only : damper_count, damper_series, dampers_without_adjuster
    use camroller_flexible_measures, only : largest_load_angle, measures
    use camroller_flexible_solution, only : error_share, flexible_solution_t, statistical_turns
@@ -281,17 +282,70 @@ contains
                   means%oil = means%oil + weight*[train%check_flow, train%leak_flow]/relative_volume(given, train%chamber_pressure)
                end associate
             end if
-            if (has_extremes .and. is_last) then
-               call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
-               call add_sample(means%torque_rows, angle, values(size(means%rows%values, 1) + 1:), .false.)
-            else if (has_extremes) then
-               call hold_row(means, angle, values, state%contact%is_touching, merge(state%contact%load, huge(1.0_wp), &
-                  & state%position%lift > 0.0_wp .and. state%position%lift >= model%train%seat_lift))
-            end if
+            if (has_extremes) call keep_row(means, model, angle, state, values, is_last)
             call add_shares(means, model, state, angle, state%position%lift > 0.0_wp, weight)
          end do
+         if (has_extremes .and. has_spikes(model)) call add_spikes(case, model, path, resolution, step, is_last, means)
       end do
    end subroutine add_turn
+
+   !> Add rows where the friction of joints has spikes that the points of a step miss.
+   subroutine add_spikes(case, model, path, resolution, step, is_last, means)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The model of the lobe, with such joints
+      type(model_t), intent(in) :: model
+      !> The turn
+      type(trajectory_t), intent(in) :: path
+      !> What its integration did not tell apart
+      type(resolution_t), intent(in) :: resolution
+      !> The step
+      integer, intent(in) :: step
+      !> Is the turn the last one?
+      logical, intent(in) :: is_last
+      !> The means; out: with the rows
+      type(flexible_means_t), intent(inout) :: means
+
+      type(state_t) :: state
+      ! Cam angles [rad]; state of the train [state], series [unit of the series]
+      real(wp), allocatable :: angles(:)
+      real(wp) :: train(size(path%state, 1)), values(size(means%mean))
+      integer :: i, hint, status
+
+      angles = spike_angles(model, path, resolution, step)
+      do i = 1, size(angles)
+         hint = step
+         call interpolate_state(path, angles(i), hint, train)
+         call evaluate_follower(model, angles(i), train, resolution, state, status)
+         if (status /= 0) cycle
+         call series_values(case, model, state, state%torques, values)
+         call keep_row(means, model, angles(i), state, values, is_last)
+      end do
+   end subroutine add_spikes
+
+   !> Keep a row for the extremes.
+   pure subroutine keep_row(means, model, angle, state, values, is_last)
+      !> The means; out: with the row
+      type(flexible_means_t), intent(inout) :: means
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cam angle [rad]
+      real(wp), intent(in) :: angle
+      !> State of the follower there
+      type(state_t), intent(in) :: state
+      !> Series [unit of the series]
+      real(wp), intent(in) :: values(:)
+      !> Is the turn the last one?
+      logical, intent(in) :: is_last
+
+      if (is_last) then
+         call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
+         call add_sample(means%torque_rows, angle, values(size(means%rows%values, 1) + 1:), .false.)
+      else
+         call hold_row(means, angle, values, state%contact%is_touching, merge(state%contact%load, huge(1.0_wp), &
+            & state%position%lift > 0.0_wp .and. state%position%lift >= model%train%seat_lift))
+      end if
+   end subroutine keep_row
 
    !> Scalars of a train.
    subroutine add_train_scalars(list, model, solution, prefix, scope)
