@@ -26,6 +26,8 @@ contains
       testsuite = [ &
          new_unittest("losses of a very stiff train's joints are those of a rigid train", test_rigid_losses), &
          new_unittest("moment and force of the pivot's ball agree, and slopes with difference quotients", test_ball), &
+         new_unittest("friction that falls by Stribeck's curve beside a turning of the valve has its peaks among the extremes", &
+            & test_spikes), &
          new_unittest("a finger that jams on its ball is refused", test_jam) &
          ]
    end subroutine collect_flexible_joints
@@ -134,6 +136,38 @@ contains
          end do
       end do
    end subroutine test_ball
+
+   !> At full lift the valve turns, and within a hundred thousandth of a degree the friction of its guide passes from one peak to the other.
+   subroutine test_spikes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Largest friction of the guide and force of each of its ends [N]
+      real(wp) :: friction(2), forces(2)
+
+      the_case = stiff_case(1.0_wp, 0)
+      call add_joints(the_case, 2)
+      ! Else the side force of the tip's friction turns round there as well
+      deallocate (the_case%valve_tip)
+      ! The force of the tip makes the moment about the stem, then, which is largest at full lift
+      the_case%guide_side_load%stem_axis = 0.025_wp
+      associate (sliding => the_case%guide_side_load%sliding)
+         sliding = sliding_t("stribeck", sliding%friction_coefficient, 1.0e-6_wp, 0.0_wp, 0.01_wp, 200.0_wp, 1.0e-8_wp)
+      end associate
+      call run_case(the_case, result, failure)
+      call get_summary(result, "max_friction_guide_side", friction(1), failure)
+      if (.not. allocated(failure)) call get_summary(result, "min_friction_guide_side", friction(2), failure)
+      if (.not. allocated(failure)) call get_summary(result, "max_guide_upper_force", forces(1), failure)
+      if (.not. allocated(failure)) call get_summary(result, "max_guide_lower_force", forces(2), failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      ! Both forces are largest there. The reversal leaves 0.99 of the peak, the curve 0.97
+      call check(error, minval(abs(friction)) > 0.8_wp*the_case%guide_side_load%sliding%friction_coefficient*sum(forces), &
+         & "peaks are not seen")
+   end subroutine test_spikes
 
    subroutine test_jam(error)
       type(error_type), allocatable, intent(out) :: error
