@@ -412,6 +412,18 @@ contains
       end do
    end subroutine test_equations
 
+   !> Let the roller turn so slowly against the finger that the torque of its bearing reverses.
+   subroutine turn_bearing_round(model, angle, state)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: angle ! [rad]
+      real(wp), intent(inout) :: state(:)
+      type(flexible_state_t) :: now
+      integer :: status
+
+      call evaluate_train(model, angle, state, resolution_t(), now, status)
+      state(at_sliding) = state(at_sliding) + (now%contact%relative_spin - 0.5_wp*model%bearing%reversal_spin)*model%roller_radius
+   end subroutine turn_bearing_round
+
    subroutine test_jacobian(error)
       type(error_type), allocatable, intent(out) :: error
       type(model_t), target :: model
@@ -436,6 +448,7 @@ contains
          scales = state_scales(model)
          do i = 2, 52, 5
             call random_state(model, i, angle, state)
+            if (modulo(i, 3) == 0) call turn_bearing_round(model, angle, state)
             call problem%linearise(angle, state, angle + 1.0_wp, linear, counters, status)
             call check(error, status, 0)
             if (allocated(error)) return
