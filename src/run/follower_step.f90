@@ -49,8 +49,8 @@ module camroller_follower_step
    !> Where a follower is between two steps: what it remembers, and what its model is set to
    type :: place_t
       type(point_t) :: point
-      !> Cam speed [rad/s], its change with the cam angle [rad/s over rad]
-      real(wp) :: speed = 0.0_wp, speed_slope = 0.0_wp
+      !> Cam speed [rad/s]
+      real(wp) :: speed = 0.0_wp
    end type place_t
 
    !> What one step gives
@@ -185,7 +185,6 @@ contains
 
       place%point = follower%point
       place%speed = follower%model%speed
-      place%speed_slope = follower%model%speed_slope
    end function place_of
 
    !> Put a follower back where it was, with its model at the inputs of then. Films solved beforehand stay what they are.
@@ -199,7 +198,6 @@ contains
       type(error_t), allocatable :: ignored
 
       follower%point = place%point
-      follower%model%speed_slope = place%speed_slope
       call keep_films(follower%model, place%speed, place%point%oil_temperature, ignored)
       ! Whatever else has been changed on the way, the next step sets it anew
       follower%is_to_be_set = .true.
