@@ -1,7 +1,7 @@
 !> Where the joints of a flexible train have the spikes of Stribeck's friction: on both sides of each turning of valve or finger.
 !>
-!> In: model, a step of a turn. Out: cam angles at which friction is largest beside a turning; in cold oil they are so close to it that
-!> the points of a step miss them.
+!> In: model, a step of a turn. Out: cam angles at which friction is largest beside a turning; in cold oil they are so close to it
+!> that the points of a step miss them.
 module camroller_flexible_spikes
    use camroller_kinds, only : wp
    use camroller_flexible_follower, only : evaluate_follower

@@ -1,4 +1,4 @@
-!> How the pad's force follows the state of a flexible train, and how friction at valve tip, stem and pivot changes its accelerations.
+!> How the pad's force follows the state of a flexible train, and how friction at tip, stem and pivot changes its accelerations.
 !>
 !> In: everything at a state. Out: slopes of the pad's force; what friction adds to the slopes of the accelerations of finger and
 !> pivot, and of the force on the valve. The pad's force, and with it the friction at the valve's end, follows six variables: the

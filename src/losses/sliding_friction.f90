@@ -150,8 +150,8 @@ contains
       place(1) = log(max(abs(speed), tiny(1.0_wp))/top)
    end function place_on_curve
 
-   !> Sliding speed at which friction by Stribeck's curve is largest, where the spread of its reversal has ended and its fall begins;
-   !> zero where there is no such speed.
+   !> Sliding speed at which friction by Stribeck's curve is largest, where the spread of its reversal has ended and its fall
+   !> begins; zero where there is no such speed.
    pure function speed_of_peak(law, force) result(speed)
       !> The law
       type(sliding_law_t), intent(in) :: law

@@ -95,7 +95,7 @@ contains
    !> A ball whose force changes much by its friction.
    subroutine test_ball(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Step of the differences, relative [-]; difference allowed: rounding over h, and at rest h, where Stribeck's friction bends [-]
+      ! Step of the differences, relative [-]; difference allowed: rounding over h, and at rest h, where Stribeck's law bends [-]
       real(wp), parameter :: h = 1.0e-5_wp, allowed = 1.0e-7_wp
       ! Rates of the finger, opening and closing, in the reversal too [rad/s]
       real(wp), parameter :: rates(*) = [-20.0_wp, -0.1_wp, 0.0_wp, 0.05_wp, 30.0_wp]
@@ -137,7 +137,8 @@ contains
       end do
    end subroutine test_ball
 
-   !> At full lift the valve turns, and within a hundred thousandth of a degree the friction of its guide passes from one peak to the other.
+   !> At full lift the valve turns, and within a hundred thousandth of a degree its guide's friction passes from one peak to the
+   !> other.
    subroutine test_spikes(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: the_case
