@@ -48,7 +48,7 @@ contains
          & "whether the drag changes with the oil's viscosity or is constant")
       call add_number(schema, "reference_viscosity_Pa_s", positive, "viscosity that the drag is given for", is_optional=.true.)
       call add_number(schema, "reversal_speed_m_s", not_negative, &
-         & "speed of the valve over which the lip's friction reverses; 0: it jumps", default=seal%reversal_speed)
+         & "speed of the valve over which the lip's friction reverses; 0, in a rigid train: it jumps", default=seal%reversal_speed)
       call add_group(schema, "guide_side_load", group_effect, "friction of the stem pressed against the ends of its guide")
       call add_number(schema, "guide_length_mm", positive, "length of the guide", example="36")
       call add_number(schema, "tip_height_mm", not_negative, "height of the valve's tip above the guide with the valve closed", &
@@ -85,7 +85,7 @@ contains
       call add_number(schema, "reference_viscosity_Pa_s", positive, "reference viscosity", is_optional=.true.)
       call add_number(schema, "reference_load_N", positive, "reference force", is_optional=.true.)
       call add_number(schema, "reversal_speed_m_s", not_negative, &
-         & "sliding speed over which friction reverses; 0: it jumps", default=standard%reversal_speed)
+         & "sliding speed over which friction reverses; 0, in a rigid train: it jumps", default=standard%reversal_speed)
    end subroutine add_sliding_keys
 
    !> Fill the components of a case.
