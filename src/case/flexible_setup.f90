@@ -31,8 +31,8 @@ module camroller_flexible_setup
 
 contains
 
-   !> Refuse a finger that jams on its ball: whose friction would grow by nearly as much as the finger's acceleration, which it
-   !> takes away, changes the ball's force.
+   !> Refuse a finger that jams on its ball: friction slows the finger, which changes the force of the ball and by that the friction
+   !> again, by nearly as much.
    subroutine check_ball(flexible, train, ball, error)
       !> The train
       type(flexible_t), intent(in) :: flexible
@@ -55,9 +55,9 @@ contains
          end if
       end associate
       gain = gain*ball%law%coefficient*ball%ball_radius
-      if (gain > largest_slope) call raise(error, kind_deck, "finger_pivot: the finger jams on its ball, whose friction would "// &
-         & "change its own force by up to "//number_text(gain, 3)//" of it; lower finger_pivot.friction_coefficient or "// &
-         & "finger_pivot.ball_radius_mm")
+      if (gain > largest_slope) call raise(error, kind_deck, "finger_pivot: the finger jams on its ball, since friction "// &
+         & "there would add up to "//number_text(gain, 3)//" N m for each newton metre of itself; lower "// &
+         & "finger_pivot.friction_coefficient or finger_pivot.ball_radius_mm")
    end subroutine check_ball
 
    !> Constants of a case's flexible train.

@@ -75,13 +75,13 @@ contains
       !> In: torques; out: with the joints
       type(state_t), intent(inout) :: state
 
-      associate (stem => now%rubbing%stem, torques => state%torques)
+      associate (stem => now%joint_friction%stem, torques => state%torques)
          state%joints = joint_values_t(tip_force=stem%tip_force%value, tip_friction=stem%tip_friction%value, &
             & tip_speed=stem%tip_speed%value, seal_friction=stem%seal_friction%value, side_friction=stem%side_friction%value, &
             & upper_force=stem%upper_force, lower_force=stem%lower_force, pivot_force=0.0_wp, torque_tip=torques(of_tip), &
             & torque_seal=torques(of_seal), torque_side=torques(of_guide_side), torque_pivot=torques(of_pivot))
       end associate
-      if (allocated(model%joints%pivot)) state%joints%pivot_force = abs(now%rubbing%ball%force)
+      if (allocated(model%joints%pivot)) state%joints%pivot_force = abs(now%joint_friction%ball%force)
    end subroutine take_joints
 
    !> Everything at one angle of a turn that was integrated.

@@ -65,9 +65,13 @@ contains
          if (allocated(model%drag)) powers%losses(of_needle_drag) = contact%bearing_drag*contact%relative_spin
          powers%losses(of_needle) = contact%bearing_torque*contact%relative_spin - powers%losses(of_needle_drag)
          powers%losses(of_guide) = now%guide_drag*state(at_speed)**2
-         if (allocated(now%rubbing)) powers%losses([of_tip, of_seal, of_guide_side, of_pivot]) = [ &
-            & now%tip_friction*now%rubbing%stem%tip_speed%value, now%rubbing%stem%seal_friction%value*state(at_speed), &
-            & now%rubbing%stem%side_friction%value*state(at_speed), now%rubbing%ball%moment*state(at_finger_rate)]
+         if (allocated(now%joint_friction)) then
+            associate (stem => now%joint_friction%stem, ball => now%joint_friction%ball)
+               powers%losses([of_tip, of_seal, of_guide_side, of_pivot]) = [now%tip_friction*stem%tip_speed%value, &
+                  & stem%seal_friction%value*state(at_speed), stem%side_friction%value*state(at_speed), &
+                  & ball%moment*state(at_finger_rate)]
+            end associate
+         end if
          powers%dampers(at_cam) = (contact%load - now%cam%elastic)*now%cam%rate
          powers%dampers(at_pad) = (now%pad%force - now%pad%elastic)*now%pad%rate
          powers%dampers(at_seat) = (now%seat%force - now%seat%elastic)*now%seat%rate

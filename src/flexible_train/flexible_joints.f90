@@ -143,7 +143,7 @@ contains
       ! Change of the moment of the friction [N m over the unit of the variable]
       real(wp) :: moment(columns)
 
-      associate (flexible => model%flexible, ball => now%rubbing%ball, rate => state(at_finger_rate))
+      associate (flexible => model%flexible, ball => now%joint_friction%ball, rate => state(at_finger_rate))
          if (.not. abs(ball%force) > 0.0_wp) return
          direction = ball%force/abs(ball%force)
          centre = now%touch%arm*(flexible%finger_centre/model%linkage%a)

@@ -54,10 +54,10 @@ module camroller_flexible_train
    end type push_t
 
    !> Friction of the sliding joints: at valve tip and stem, of the finger on its pivot
-   type :: rubbing_t
+   type :: joint_friction_t
       type(stem_t) :: stem
       type(ball_t) :: ball
-   end type rubbing_t
+   end type joint_friction_t
 
    !> Everything at one state
    type :: flexible_state_t
@@ -77,7 +77,7 @@ module camroller_flexible_train
       !> Friction of pad and tip [N], its moment against the finger's opening [N m]; friction of seal and guide on the stem [N]
       real(wp) :: tip_friction = 0.0_wp, tip_moment = 0.0_wp, stem_friction = 0.0_wp
       !> Friction of the joints, where the case has any
-      type(rubbing_t), allocatable :: rubbing
+      type(joint_friction_t), allocatable :: joint_friction
       !> Pull of the spring's modes beside its static force [N]
       real(wp) :: mode_pull = 0.0_wp
       !> Drag of the valve's guide per speed [N s/m]
@@ -308,8 +308,8 @@ contains
          now%mode_pull = valve_pull(flexible%modes, state(first::2), state(first + 1::2))
       end associate
       if (.not. allocated(model%joints)) return
-      allocate (now%rubbing)
-      associate (stem => now%rubbing%stem, joints => model%joints)
+      allocate (now%joint_friction)
+      associate (stem => now%joint_friction%stem, joints => model%joints)
          call rub_stem(joints%tip, joints%seal, joints%side, stem_motion(model, state, now), stem)
          now%tip_friction = stem%tip_friction%value
          now%tip_moment = stem%tip_friction%value*stem%height%value
@@ -432,7 +432,7 @@ contains
       ! Finger's centre of mass from the pivot [m]; force of the valve on the pad [N]
       complex(wp) :: centre, pad_force
 
-      associate (flexible => model%flexible, arm => now%touch%arm, ball => now%rubbing%ball, rate => state(at_finger_rate))
+      associate (flexible => model%flexible, arm => now%touch%arm, ball => now%joint_friction%ball, rate => state(at_finger_rate))
          pivot = 0.0_wp
          finger = 1.0_wp/model%train%finger_inertia
          if (allocated(flexible%adjuster)) call solve_finger(model, flexible%finger_mass*now%centre_slope, 0.0_wp, 1.0_wp, &

@@ -414,12 +414,14 @@ contains
 
    !> Let the roller turn so slowly against the finger that the torque of its bearing reverses.
    subroutine turn_bearing_round(model, angle, state)
-      type(model_t), intent(in) :: model
+      type(model_t), intent(inout) :: model
       real(wp), intent(in) :: angle ! [rad]
       real(wp), intent(inout) :: state(:)
       type(flexible_state_t) :: now
       integer :: status
 
+      ! To the speed that it has there
+      call follow_ramp(model, angle)
       call evaluate_train(model, angle, state, resolution_t(), now, status)
       state(at_sliding) = state(at_sliding) + (now%contact%relative_spin - 0.5_wp*model%bearing%reversal_spin)*model%roller_radius
    end subroutine turn_bearing_round
@@ -438,6 +440,8 @@ contains
       do number = 0, 31
          call make_train(number, model, error)
          if (allocated(error)) return
+         ! So large that what the cam's speed does to its reversal stands out among the slopes
+         if (allocated(model%drag)) model%drag%least = 1.0e4_wp*model%drag%least
          problem%model => model
          ! Every other train does not tell sliding speeds apart that differ by less than 1 cm/s
          problem%resolution%sliding_speed = merge(0.0_wp, 1.0e-2_wp, modulo(number, 2) == 0)

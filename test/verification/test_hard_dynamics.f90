@@ -162,6 +162,7 @@ contains
       real(wp), allocatable :: right(:), values(:)
       real(wp) :: errors(size(tolerances))
       integer :: i, period
+      logical :: has_fallen
 
       call measure(deck_name, "rodas5p", most_turns, right, period, error, reference)
       do i = 1, size(tolerances)
@@ -173,10 +174,11 @@ contains
       if (allocated(error)) return
       call check_close(error, values(largest_load), right(largest_load), several*tolerances(2), deck_name//": largest load")
       if (allocated(error)) return
-      ! With two decades of the tolerance an error falls by two; by one where chance is against it, or less where the first one is
-      ! small by chance: 5e-6 at a tolerance of 1e-3 with narrow reversals
-      call check(error, errors(2) < max(0.1_wp*errors(1), 0.2_wp*tolerances(2)), deck_name// &
-         & ": the error of the losses does not fall with the tolerance")
+      ! With two decades of the tolerance an error falls by two; by one where chance is against it. With narrow reversals the first
+      ! one is small by chance, 5e-6, and tells nothing
+      has_fallen = errors(2) < 0.1_wp*errors(1)
+      if (deck_name == hard//"narrow_reversals") has_fallen = errors(2) < 0.2_wp*tolerances(2)
+      call check(error, has_fallen, deck_name//": the error of the losses does not fall with the tolerance")
    end subroutine converge
 
    !> Friction stops the roller within 1e-10 rad, and the steps that follow are those of a roller at rest.
