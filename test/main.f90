@@ -27,6 +27,7 @@ program main
    use test_boundary_law, only : collect_boundary_law
    use test_friction_modifier, only : collect_friction_modifier
    use test_running_in, only : collect_running_in
+   use test_flexible_running_in, only : collect_flexible_running_in
    use test_tribofilm, only : collect_tribofilm
    use test_heat_laws, only : collect_heat_laws
    use test_spline, only : collect_spline
@@ -230,6 +231,7 @@ contains
          new_testsuite("axial_lengths", collect_axial_lengths), &
          new_testsuite("friction_modifier", collect_friction_modifier), &
          new_testsuite("running_in", collect_running_in), &
+         new_testsuite("flexible_running_in", collect_flexible_running_in), &
          new_testsuite("tribofilm", collect_tribofilm), &
          new_testsuite("boundary_law", collect_boundary_law), &
          new_testsuite("heat_laws", collect_heat_laws), &

@@ -85,7 +85,7 @@ module camroller_cycle
 contains
 
    !> Integrate until the cycle is periodic.
-   subroutine integrate_cycle(cycle, model, numerics, error)
+   subroutine integrate_cycle(cycle, model, numerics, error, start)
       !> The cycle
       type(cycle_t), intent(out) :: cycle
       !> The model
@@ -94,9 +94,11 @@ contains
       type(numerics_t), intent(in) :: numerics
       !> Deck error for an unknown method, convergence error where the cycle does not become periodic
       type(error_t), allocatable, intent(out) :: error
+      !> Start of a turn of a flexible train near the periodic state; absent or not allocated: not known [state]
+      real(wp), allocatable, intent(in), optional :: start(:)
 
       if (allocated(model%flexible)) then
-         call take_flexible(cycle, model, resolve_numerics(numerics), error)
+         call take_flexible(cycle, model, resolve_numerics(numerics), error, start)
       else
          call integrate_roller(cycle, model, numerics, error)
       end if
@@ -197,7 +199,7 @@ contains
    end subroutine follow_balances
 
    !> Take the solution of a flexible train for the cycle.
-   subroutine take_flexible(cycle, model, numerics, error)
+   subroutine take_flexible(cycle, model, numerics, error, start)
       !> The cycle
       type(cycle_t), intent(inout) :: cycle
       !> The model, with a flexible train
@@ -206,6 +208,8 @@ contains
       type(numerics_t), intent(in) :: numerics
       !> Deck error for a method that cannot; convergence error
       type(error_t), allocatable, intent(out) :: error
+      !> Start of a turn near the periodic state; absent or not allocated: not known [state]
+      real(wp), allocatable, intent(in), optional :: start(:)
 
       ! Stops within one turn [rad]
       real(wp), allocatable :: stops(:)
@@ -213,7 +217,7 @@ contains
       cycle%tolerance = numerics%tolerance
       call find_stops(model, stops)
       allocate (cycle%flexible)
-      call solve_flexible(cycle%flexible, model, numerics, error)
+      call solve_flexible(cycle%flexible, model, numerics, error, start)
       if (allocated(error)) return
       associate (solution => cycle%flexible)
          cycle%trajectory = solution%cycle%trajectory

@@ -86,7 +86,7 @@ contains
       call take(settings, "running_in", "places", case%running_in%places)
    end subroutine fill_running_in
 
-   !> Rules: asperities wear, films grow over hours, hours need what changes; places on the cam are those of a rigid train.
+   !> Rules: asperities wear, films grow over hours, hours need what changes.
    subroutine check_running_in(settings, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -104,8 +104,6 @@ contains
       if (.not. has_group(settings, "running_in")) return
       if (.not. (has_group(settings, "wear") .or. has_group(settings, "tribofilm"))) call complain_about_group(mistakes, &
          & settings, "running_in", "&running_in needs &tribofilm or &wear: nothing else changes over hours")
-      if (has_group(settings, "dynamics")) call complain_about_group(mistakes, settings, "running_in", &
-         & "&running_in needs a rigid train: leave out &dynamics")
    end subroutine check_running_in
 
 end module camroller_deck_running_in

@@ -20,7 +20,7 @@ module camroller_flexible_follower
    implicit none
    private
 
-   public :: contact_changes, evaluate_follower, follower_on_path
+   public :: contact_changes, evaluate_follower, follower_on_path, follower_over_place
 
 contains
 
@@ -101,16 +101,85 @@ contains
       !> Convergence error where the train cannot be in that state
       type(error_t), allocatable, intent(out) :: error
 
-      ! State of the train [state]
-      real(wp) :: train(state_size(model))
+      ! State of the train [state]; cam angle within the turn [rad]
+      real(wp) :: train(state_size(model)), inside
       integer :: status
 
-      associate (inside => path%time(1) + modulo(angle - path%time(1), two_pi))
-         call interpolate_state(path, min(max(inside, path%time(1)), path%time(path%count)), hint, train)
-         call evaluate_follower(model, inside, train, resolution, state, status)
-      end associate
+      inside = angle_inside(path, angle)
+      call interpolate_state(path, inside, hint, train)
+      call evaluate_follower(model, inside, train, resolution, state, status)
       if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at "//cam_angle_text(angle, 3))
    end subroutine follower_on_path
+
+   !> State on a turn when the roller is over a place of the cam: the train bends, so that it is there a little earlier or later
+   !> than at that cam angle. Where the roller goes back and forth over the place, it is one of these times.
+   subroutine follower_over_place(model, path, resolution, place, hint, state, error)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The turn
+      type(trajectory_t), intent(in) :: path
+      !> What its integration did not tell apart
+      type(resolution_t), intent(in) :: resolution
+      !> Cam angle from full lift at which a rigid train touches the place [rad]
+      real(wp), intent(in) :: place
+      !> Interval of the turn where the search starts
+      integer, intent(inout) :: hint
+      !> State of the follower
+      type(state_t), intent(out) :: state
+      !> Convergence error where the train cannot be in that state
+      type(error_t), allocatable, intent(out) :: error
+
+      ! A finger that swings by 10 micrometres at 1 kHz changes the turn from cam angle to place, some 1e-3 rad, by 0.03 rad/rad at
+      ! 900 rev/min: so much of the error each step leaves
+      integer, parameter :: steps = 4
+      type(touch_t) :: touch
+      ! Cam angle [rad]
+      real(wp) :: angle
+      integer :: i, status
+
+      angle = angle_inside(path, place)
+      do i = 1, steps
+         call touch_on_path(model, path, angle, hint, touch, status)
+         if (status == 0) angle = angle_inside(path, place - (touch%angle - angle))
+      end do
+      call follower_on_path(model, path, resolution, angle, hint, state, error)
+   end subroutine follower_over_place
+
+   !> Where cam and roller touch, or would touch next, on a turn.
+   subroutine touch_on_path(model, path, angle, hint, touch, status)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The turn
+      type(trajectory_t), intent(in) :: path
+      !> Cam angle from full lift, of this turn [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the turn where the search starts
+      integer, intent(inout) :: hint
+      !> The geometry
+      type(touch_t), intent(out) :: touch
+      !> 0 fine, else there is no nearest point
+      integer, intent(out) :: status
+
+      ! State of the train [state]; place and rate of the pivot [m], [m/s]
+      real(wp) :: train(state_size(model)), pivot(2)
+
+      call interpolate_state(path, angle, hint, train)
+      pivot = [model%flexible%pivot_place, 0.0_wp]
+      if (allocated(model%flexible%adjuster)) pivot = train([at_plunger, at_plunger_rate])
+      call find_touch(model, angle, train(at_finger), train(at_finger_rate), pivot(1), pivot(2), touch, status)
+   end subroutine touch_on_path
+
+   !> Cam angle within a turn.
+   pure function angle_inside(path, angle) result(inside)
+      !> The turn
+      type(trajectory_t), intent(in) :: path
+      !> Cam angle from full lift, of any turn [rad]
+      real(wp), intent(in) :: angle
+      !> The same in this turn [rad]
+      real(wp) :: inside
+
+      inside = min(path%time(1) + modulo(angle - path%time(1), two_pi), path%time(path%count))
+   end function angle_inside
 
    !> Cam angles of a turn at which cam and roller part or meet: steps end there, so that the middle of each tells.
    function contact_changes(model, path) result(angles)
@@ -122,21 +191,13 @@ contains
       real(wp), allocatable :: angles(:)
 
       type(touch_t) :: touch
-      ! Cam angle [rad], state of the train [state]
-      real(wp) :: angle, train(state_size(model))
-      ! Place and rate of the pivot [m], [m/s]
-      real(wp) :: pivot(2)
       integer :: step, hint, status
       logical :: touches, has_touched
 
       allocate (angles(0))
-      pivot = [model%flexible%pivot_place, 0.0_wp]
       do step = 1, path%count - 1
          hint = step
-         angle = 0.5_wp*(path%time(step) + path%time(step + 1))
-         call interpolate_state(path, angle, hint, train)
-         if (allocated(model%flexible%adjuster)) pivot = train([at_plunger, at_plunger_rate])
-         call find_touch(model, angle, train(at_finger), train(at_finger_rate), pivot(1), pivot(2), touch, status)
+         call touch_on_path(model, path, 0.5_wp*(path%time(step) + path%time(step + 1)), hint, touch, status)
          touches = status == 0 .and. touch%approach > 0.0_wp
          if (step == 1) has_touched = touches
          if (touches .neqv. has_touched) angles = [angles, path%time(step)]

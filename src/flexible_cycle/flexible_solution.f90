@@ -83,7 +83,7 @@ module camroller_flexible_solution
 contains
 
    !> Solve a model's train.
-   subroutine solve_flexible(solution, model, numerics, error)
+   subroutine solve_flexible(solution, model, numerics, error, start)
       !> The solution
       type(flexible_solution_t), intent(out) :: solution
       !> The model, with a flexible train
@@ -92,12 +92,15 @@ contains
       type(numerics_t), intent(in) :: numerics
       !> Deck error for a method that cannot; convergence error
       type(error_t), allocatable, intent(out) :: error
+      !> Start of a turn near the periodic state; absent or not allocated: not known [state]
+      real(wp), allocatable, intent(in), optional :: start(:)
 
       type(turn_t) :: turn
       ! State [state]
       real(wp), allocatable :: state(:)
       character(len=name_length) :: method
       integer :: max_cycles
+      logical :: is_near
 
       method = train_method(numerics)
       if (.not. has_error_control(numerics%method)) then
@@ -107,20 +110,25 @@ contains
       end if
       solution%cycle%tolerance = tolerance_ratio*numerics%tolerance
       call start_turns(turn, model, method, solution%cycle%tolerance, error)
-      if (.not. allocated(error)) call rest_of_train(model, state, error)
+      if (present(start)) then
+         if (allocated(start)) state = start
+      end if
+      is_near = allocated(state)
+      if (.not. (is_near .or. allocated(error))) call rest_of_train(model, state, error)
       max_cycles = max(least_cycles, numerics%max_cycles)
       turn%most_work = most_work
       turn%most_search = int(min(real(most_work, wp), real(search_steps, wp)*max_cycles &
          & *max(1.0_wp, usual_tolerance/solution%cycle%tolerance)**steps_exponent))
-      if (.not. allocated(error)) call search_by_levels(solution, turn, state, max_cycles, error)
+      if (.not. allocated(error)) call search_by_levels(solution, turn, state, max_cycles, is_near, error)
       if (.not. allocated(error)) call take_turns(solution, turn, state, error)
       call add_context(error, "integrating the flexible train")
       if (.not. allocated(error)) call take_measures(solution, model, error)
       if (.not. allocated(error)) call estimate_error(solution, turn, error)
    end subroutine solve_flexible
 
-   !> Look for the periodic state with large tolerances first, whose turns take fewer steps, and from there with the one wanted.
-   subroutine search_by_levels(solution, turn, state, max_cycles, error)
+   !> Look for the periodic state with large tolerances first, whose turns take fewer steps, and from there with the one wanted;
+   !> with that alone where it is near.
+   subroutine search_by_levels(solution, turn, state, max_cycles, is_near, error)
       !> The solution, with the tolerance
       type(flexible_solution_t), intent(inout) :: solution
       !> What integrates
@@ -129,6 +137,8 @@ contains
       real(wp), intent(inout) :: state(:)
       !> Turns at most of the search with the tolerance wanted
       integer, intent(in) :: max_cycles
+      !> Is the periodic state near?
+      logical, intent(in) :: is_near
       !> Convergence error where a turn cannot be integrated
       type(error_t), allocatable, intent(out) :: error
 
@@ -139,7 +149,7 @@ contains
 
       most_search = turn%most_search
       ratio = 1.0_wp
-      do while (level_ratio*ratio*solution%cycle%tolerance <= largest_level)
+      do while (level_ratio*ratio*solution%cycle%tolerance <= largest_level .and. .not. is_near)
          ratio = level_ratio*ratio
       end do
       associate (cycle => solution%cycle)

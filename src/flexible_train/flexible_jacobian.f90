@@ -254,7 +254,8 @@ contains
       spin(by_angle) = spin(by_angle) - model%speed_slope
    end function spin_changes
 
-   !> How friction follows: the contact's own slopes along load, entrainment, radius, sliding speed and spin.
+   !> How friction follows: the contact's own slopes along load, entrainment, radius, sliding speed, spin and, where surfaces change
+   !> as they run, place on the cam.
    pure subroutine follow_friction(model, now, turns, follow, traction, rolling)
       !> The model
       type(model_t), intent(in) :: model
@@ -270,8 +271,8 @@ contains
       ! Logarithmic changes of radius and entrainment; changes of sliding speed and relative spin [over the unit of the variable]
       real(wp) :: radius(variables), entrainment(variables), speed(variables), spin(variables)
       ! Their slopes: traction, rolling resistance by its law, bearing torque
-      type(slopes_t) :: slopes(5)
-      integer :: i
+      type(slopes_t) :: slopes(6)
+      integer :: i, count
 
       associate (touch => now%touch, contact => now%contact, r => model%roller_radius)
          radius = touch%position%radius_slope*turns%nearest/touch%position%equivalent_radius
@@ -288,12 +289,18 @@ contains
          slopes(3) = follow_contact(model, now%setting, contact, now%parts, motion_t(radius=1.0_wp))
          slopes(4) = follow_contact(model, now%setting, contact, now%parts, motion_t(sliding_speed=1.0_wp))
          slopes(5) = follow_contact(model, now%setting, contact, now%parts, motion_t(relative_spin=1.0_wp))
+         count = merge(6, 5, allocated(model%surface))
+         if (allocated(model%surface)) then
+            slopes(6) = follow_contact(model, now%setting, contact, now%parts, &
+               & motion_t(roughness=contact%surfaces%roughness_slope, covered=contact%surfaces%covered_slope))
+         end if
          do i = 1, variables
-            associate (motion => [follow%load(i)/contact%load, entrainment(i), radius(i), speed(i), spin(i)])
-               traction(i) = sum(slopes%traction*motion)
+            associate (motion => [follow%load(i)/contact%load, entrainment(i), radius(i), speed(i), spin(i), turns%nearest(i)])
+               traction(i) = sum(slopes(:count)%traction*motion(:count))
                ! `follow_contact` takes the resistance that is there for the law's own
-               rolling(i) = now%rolling_by_law*sum(slopes%rolling_resistance*motion) + now%rolling_by_load*follow%load(i)
-               follow%bearing(i) = sum(slopes%bearing_torque*motion)
+               rolling(i) = now%rolling_by_law*sum(slopes(:count)%rolling_resistance*motion(:count)) &
+                  & + now%rolling_by_load*follow%load(i)
+               follow%bearing(i) = sum(slopes(:count)%bearing_torque*motion(:count))
             end associate
             follow%tangential(i) = traction(i) + rolling(i)*now%parts%rolling_part &
                & + contact%rolling_resistance*(now%parts%rolling_part + 1.0_wp)*radius(i)

@@ -1,8 +1,9 @@
 !> What is listed over another axis than the cam angle, in the result file: hours of running, or turns of a flexible train.
 !>
-!> In: rows of one case after the other. Out: a group in the file, from the first case that has some on: over case and the part of
-!> the running time, or the number of the turn; not-a-number where a case has none, or fewer rows than others.
+!> In: rows of one case after the other. Out: a group in the file for each list, from the first case that has it on: over case and
+!> the part of the running time, or the number of the turn; not-a-number where a case has none, or fewer rows than others.
 module camroller_history_file
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_flexible_report, only : most_turns
@@ -15,7 +16,7 @@ module camroller_history_file
    implicit none
    private
 
-   public :: history_file_t, history_group, put_history, close_history
+   public :: history_file_t, history_group, history_rows, put_history, close_history
 
    !> A list: the part of the model that it comes from, its group, its axis
    type :: list_t
@@ -23,19 +24,24 @@ module camroller_history_file
       character(len=48) :: meaning
    end type list_t
 
-   !> The lists; a case has one of them at most, since running-in needs a rigid train
+   !> The lists
    type(list_t), parameter :: lists(*) = [list_t("running_in", "running_in", "running_time_part", "part of the running time"), &
       & list_t("dynamics", "turns", "turn", "turn, from the first that the summary covers")]
    integer, parameter :: over_turns = 2
 
-   !> Where rows go
-   type :: history_file_t
+   !> Where the rows of one list go
+   type :: list_file_t
       !> Are the datasets there?
       logical :: is_open = .false.
       type(hdf5_object_t) :: group, axis
       type(hdf5_object_t), allocatable :: columns(:)
       !> What they hold
       type(quantity_t), allocatable :: quantities(:)
+   end type list_file_t
+
+   !> Where rows go
+   type :: history_file_t
+      type(list_file_t) :: lists(size(lists))
    end type history_file_t
 
 contains
@@ -48,57 +54,114 @@ contains
       type(output_t), intent(inout) :: writer
       !> Number of the case, from 1
       integer, intent(in) :: position
-      !> What the columns mean
+      !> What the columns mean, of all lists
       type(quantity_t), intent(in) :: quantities(:)
-      !> Values, shape (row, quantity) [unit of the quantity]; not allocated where there are none
+      !> Values, shape (row, quantity), not-a-number after the last row of a list [unit of the quantity]; not allocated where there
+      !> are none
       real(wp), allocatable, intent(in) :: values(:, :)
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      ! One row [unit of the quantity]
-      real(wp), allocatable :: row(:, :)
-      integer :: i, place
+      integer, allocatable :: columns(:)
+      integer :: kind
 
       if (.not. allocated(values)) return
-      if (.not. self%is_open) call open_history(self, writer, quantities, size(values, 1), error)
-      do i = 1, size(self%columns)
+      do kind = 1, size(lists)
+         columns = columns_of(quantities, lists(kind)%source)
+         if (size(columns) == 0) cycle
+         call put_list(self%lists(kind), writer, kind, position, quantities(columns), values(:, columns), error)
          if (allocated(error)) exit
-         place = find_quantity(quantities, self%quantities(i)%name)
-         if (place == 0) cycle
-         row = values(:, place:place)
-         call write_numbers(self%columns(i), position - 1, row, error)
       end do
       if (allocated(error)) call abandon_output(writer)
    end subroutine put_history
 
-   !> Which list quantities are of.
-   pure function list_of(quantities) result(kind)
-      !> Quantities of a list
+   !> Write the rows of a list of a case.
+   subroutine put_list(self, writer, kind, position, quantities, values, error)
+      !> Where they go
+      type(list_file_t), intent(inout) :: self
+      !> The result file
+      type(output_t), intent(inout) :: writer
+      !> Which list, number of the case from 1
+      integer, intent(in) :: kind, position
+      !> What the columns mean
       type(quantity_t), intent(in) :: quantities(:)
-      !> Place among the lists
-      integer :: kind
+      !> Values, shape (row, quantity) [unit of the quantity]
+      real(wp), intent(in) :: values(:, :)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
 
-      do kind = 1, size(lists) - 1
-         if (lists(kind)%source == quantities(1)%source) return
+      integer :: i, place, rows
+
+      rows = rows_of(values)
+      if (.not. self%is_open) call open_list(self, writer, kind, quantities, rows, error)
+      do i = 1, size(self%columns)
+         if (allocated(error)) exit
+         place = find_quantity(quantities, self%quantities(i)%name)
+         if (place > 0) call write_numbers(self%columns(i), position - 1, values(:rows, place:place), error)
       end do
-   end function list_of
+   end subroutine put_list
 
-   !> Group of the file that a list is in.
-   pure function history_group(quantities) result(group)
-      !> Quantities of the list
+   !> Number of rows of a list.
+   pure function rows_of(values) result(rows)
+      !> All its columns, not-a-number after the last row [any]
+      real(wp), intent(in) :: values(:, :)
+      !> The number
+      integer :: rows
+
+      rows = findloc(.not. all(ieee_is_nan(values), 2), .true., 1, back=.true.)
+   end function rows_of
+
+   !> Number of rows of the list that a quantity is in.
+   pure function history_rows(quantities, values, place) result(rows)
+      !> What the columns mean, of all lists
       type(quantity_t), intent(in) :: quantities(:)
+      !> Values, shape (row, quantity) [unit of the quantity]
+      real(wp), intent(in) :: values(:, :)
+      !> Place of the quantity
+      integer, intent(in) :: place
+      !> The number
+      integer :: rows
+
+      rows = rows_of(values(:, columns_of(quantities, quantities(place)%source)))
+   end function history_rows
+
+   !> Which quantities come from a part of the model.
+   pure function columns_of(quantities, source) result(columns)
+      !> The quantities
+      type(quantity_t), intent(in) :: quantities(:)
+      !> The part
+      character(len=*), intent(in) :: source
+      !> Their places
+      integer, allocatable :: columns(:)
+
+      integer :: i
+
+      columns = pack([(i, i=1, size(quantities))], [(quantities(i)%source == source, i=1, size(quantities))])
+   end function columns_of
+
+   !> Group of the file that a quantity is in.
+   pure function history_group(quantity) result(group)
+      !> The quantity of a list
+      type(quantity_t), intent(in) :: quantity
       !> Its name
       character(len=name_length) :: group
 
-      group = lists(list_of(quantities))%group
+      integer :: kind
+
+      group = ""
+      do kind = 1, size(lists)
+         if (lists(kind)%source == quantity%source) group = lists(kind)%group
+      end do
    end function history_group
 
    !> Create the datasets.
-   subroutine open_history(self, writer, quantities, rows, error)
+   subroutine open_list(self, writer, kind, quantities, rows, error)
       !> Where rows go
-      type(history_file_t), intent(inout) :: self
+      type(list_file_t), intent(inout) :: self
       !> The result file
       type(output_t), intent(inout) :: writer
+      !> Which list
+      integer, intent(in) :: kind
       !> What the columns mean
       type(quantity_t), intent(in) :: quantities(:)
       !> Number of rows
@@ -109,10 +172,9 @@ contains
       type(list_t) :: list
       ! Places on the axis [unit of the axis]
       real(wp), allocatable :: places(:)
-      integer :: i, cases, kind
+      integer :: i, cases
 
       cases = size(writer%status)
-      kind = list_of(quantities)
       if (kind == over_turns) then
          places = [(real(i, wp), i=1, most_turns)]
       else
@@ -140,22 +202,26 @@ contains
             if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 2, 2, error)
          end associate
       end do
-   end subroutine open_history
+   end subroutine open_list
 
    !> Close the datasets.
    subroutine close_history(self)
       !> Where rows went
       type(history_file_t), intent(inout) :: self
 
-      integer :: i
+      integer :: i, kind
 
-      if (.not. self%is_open) return
-      do i = size(self%columns), 1, -1
-         call close_object(self%columns(i))
+      do kind = size(lists), 1, -1
+         associate (list => self%lists(kind))
+            if (.not. list%is_open) cycle
+            do i = size(list%columns), 1, -1
+               call close_object(list%columns(i))
+            end do
+            call close_object(list%axis)
+            call close_object(list%group)
+            list%is_open = .false.
+         end associate
       end do
-      call close_object(self%axis)
-      call close_object(self%group)
-      self%is_open = .false.
    end subroutine close_history
 
 end module camroller_history_file

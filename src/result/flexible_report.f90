@@ -23,8 +23,8 @@ module camroller_flexible_report
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
    use camroller_quadrature, only : gauss_legendre
-   use camroller_result, only : append_quantity, find_quantity, is_film, lobe_scope, quantity_list_t, quantity_t, result_t, &
-      & take_quantities
+   use camroller_result, only : append_history, append_quantity, find_quantity, is_film, lobe_scope, quantity_list_t, &
+      & quantity_t, result_t
    use camroller_state, only : state_t
    use camroller_torque_list, only : is_loss, of_residual, of_roller_inertia, torque_count, torque_series
    use camroller_train_outlook, only : find_outlook, outlook_t
@@ -410,14 +410,15 @@ contains
       type(result_t), intent(inout) :: result
 
       type(quantity_list_t) :: list
+      ! The turns, shape (turn, measure) [unit of the measure]
+      real(wp), allocatable :: rows(:, :)
       integer :: lobe, turns, first, i
 
       if (.not. allocated(cycles(1)%flexible)) return
       turns = maxval([(size(cycles(lobe)%flexible%turns), lobe=1, size(cycles))])
       if (turns == 1) return
       allocate (list%items(0), list%values(0))
-      allocate (result%history_values(turns, sum([(size(cycles(lobe)%flexible%values, 1), lobe=1, size(cycles))])), &
-         & source=not_a_number())
+      allocate (rows(turns, sum([(size(cycles(lobe)%flexible%values, 1), lobe=1, size(cycles))])), source=not_a_number())
       do lobe = 1, size(cycles)
          associate (values => cycles(lobe)%flexible%values)
             first = list%count
@@ -425,11 +426,11 @@ contains
                call append_quantity(list, trim(lobe_prefix(lobe))//trim(measures(i)%name), trim(merge("deg         ", &
                   & measures(i)%unit, i == largest_load_angle)), trim(measures(i)%meaning), "dynamics", 0.0_wp, lobe_scope(lobe))
             end do
-            result%history_values(:size(values, 2), first + 1:list%count) = transpose(values)
-            result%history_values(:size(values, 2), first + largest_load_angle) = file_angle(values(largest_load_angle, :))
+            rows(:size(values, 2), first + 1:list%count) = transpose(values)
+            rows(:size(values, 2), first + largest_load_angle) = file_angle(values(largest_load_angle, :))
          end associate
       end do
-      call take_quantities(list, result%history)
+      call append_history(result, list%items(:list%count), rows)
    end subroutine list_turns
 
    !> Scalars of what a train's vibration is estimated to amount to, whether it is rigid or flexible.

@@ -13,14 +13,14 @@ module camroller_run_remarks
    use camroller_case, only : case_t, numerics_t
    use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
-   use camroller_remarks, only : add_remark, creeping_roller, foreign_speed, deep_wear, idle_roller, &
+   use camroller_remarks, only : add_remark, creeping_roller, few_places, foreign_speed, deep_wear, idle_roller, &
       & loose_tolerance, missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, shaken_train, &
       & untouched_film
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
 
-   public :: judge, judge_assumptions, judge_growth, judge_wear
+   public :: judge, judge_assumptions, judge_growth, judge_places, judge_wear
 
    !> Slip over a turn of the cam beyond which a roller does not roll: those of engines slip by some per cent, and by half on their
    !> base circle alone; one that makes less than a tenth of its turns is a sliding follower [-]
@@ -36,6 +36,9 @@ module camroller_run_remarks
    !> Smallest film over composite roughness from which on asperities do not touch: the usual limit of full films (Hamrock and
    !> others 2004, Fundamentals of fluid film lubrication, section 3.5) [-]
    real(wp), parameter :: parted_ratio = 3.0_wp
+   !> Part of the largest film or depth that may be missed between places, as estimated: a figure of the depth still shows its shape
+   !> then [-]
+   real(wp), parameter :: largest_miss = 0.1_wp
    !> Largest load of a train that vibrates over that of a rigid one from where on the rigid one misleads, since friction goes with
    !> the load: twice what the estimate is off by where it is farthest off, 0.05 at 2500 rev/min (doc/dynamics.md) [-]
    real(wp), parameter :: shaken_factor = 1.1_wp
@@ -233,6 +236,29 @@ contains
          end associate
       end do
    end subroutine judge_growth
+
+   !> Say that depth or film between the places of the cam is not known.
+   subroutine judge_places(case, result, error)
+      !> The case, with hours of running
+      type(case_t), intent(in) :: case
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp) :: missed ! [-]
+      integer :: lobe
+
+      do lobe = 1, lobe_count(result)
+         call take_scalar(result, trim(lobe_prefix(lobe))//"estimated_error_between_places", missed, error)
+         if (allocated(error)) return
+         if (missed <= largest_miss) cycle
+         call add_named(result, lobe, few_places, "between the "//integer_text(case%running_in%places)//" places of the cam, "// &
+            & "films or depths that the hours of running leave may be off by up to "// &
+            & number_text(1.0e2_wp*missed, 2)//" % of the largest: they change abruptly from place to place, as where a "// &
+            & "flexible train vibrates; take more running_in.places", missed)
+      end do
+   end subroutine judge_places
 
    !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
    subroutine judge_wear(result, error)

@@ -26,9 +26,9 @@ module camroller_running_in
    use camroller_error, only : error_t, add_context, raise, kind_deck, kind_domain
    use camroller_model, only : model_t
    use camroller_catalogue, only : lobe_prefix
-   use camroller_result, only : append_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, scope_length
+   use camroller_result, only : append_history, append_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, scope_length
    use camroller_surface_change, only : change_rates, differences, expected_scales, missed_between, move_surfaces, plan_t, &
-      & rates_t, relative, set_surface, surfaces_t
+      & rates_t, relative, set_surface, solved_t, surfaces_t
    implicit none
    private
 
@@ -44,8 +44,10 @@ module camroller_running_in
       real(wp) :: error = 0.0_wp
       !> The same between the places of the cam, where a curve through them has no value that was computed [-]
       real(wp) :: between = 0.0_wp
-      !> Steps, and cycles that were solved
-      integer :: steps = 0, cycles = 0
+      !> Steps
+      integer :: steps = 0
+      !> Cycles that were solved
+      type(solved_t) :: solved
       !> The way: a row for each of the times of `history_rows` [unit of each quantity]
       real(wp), allocatable :: history(:, :)
    end type aged_t
@@ -64,18 +66,14 @@ contains
       type(model_t), intent(inout) :: model
       !> The way there
       type(aged_t), intent(out) :: aged
-      !> Deck error for a flexible train or an accuracy that is not positive; domain error where surfaces change within a turn;
-      !> convergence error without a periodic cycle
+      !> Deck error for an accuracy that is not positive; domain error where surfaces change within a turn, or a flexible train does
+      !> not repeat itself; convergence error without a periodic cycle
       type(error_t), allocatable, intent(out) :: error
 
       type(plan_t) :: plan
       type(surfaces_t) :: now
       type(rates_t) :: rates
 
-      if (allocated(model%flexible)) then
-         call raise(error, kind_deck, "running-in needs a rigid train")
-         return
-      end if
       if (.not. case%running_in%accuracy > 0.0_wp) then
          call raise(error, kind_deck, "running_in.accuracy must be positive")
          return
@@ -84,7 +82,7 @@ contains
       associate (n => plan%running%places + 1)
          allocate (now%film(n), now%wear(n), source=0.0_wp)
       end associate
-      call change_rates(plan, model, now, rates, aged%cycles, error)
+      call change_rates(plan, model, now, rates, aged%solved, error)
       if (.not. allocated(error)) call march(plan, model, now, rates, aged, error)
       if (.not. allocated(error)) call add_slip_error(plan, model, now, rates, aged, error)
       if (.not. allocated(error)) aged%between = relative(missed_between(now), expected_scales(plan, now, rates, 0.0_wp))
@@ -114,7 +112,7 @@ contains
       fine = plan
       fine%numerics = resolve_numerics(plan%numerics)
       fine%numerics%tolerance = finer*fine%numerics%tolerance
-      call change_rates(fine, model, now, others, aged%cycles, error)
+      call change_rates(fine, model, now, others, aged%solved, error)
       if (allocated(error)) return
       bare = now
       bare%film = 0.0_wp
@@ -216,7 +214,7 @@ contains
       do
          is_last = time + step >= (1.0_wp - no_part)*plan%running%duration
          if (is_last) step = plan%running%duration - time
-         call take_halves(plan, model, now, rates, step, middle, at_middle, next, mistake, aged%cycles, error)
+         call take_halves(plan, model, now, rates, step, middle, at_middle, next, mistake, aged%solved, error)
          if (allocated(error)) return
          associate (left => plan%running%duration - time)
             foreseen = min(scales, expected_scales(plan, next, at_middle, left - step))
@@ -229,7 +227,7 @@ contains
             ratio = relative(mistake, foreseen)/((plan%running%accuracy - aged%error)*max(step/left, fast_part))
          end associate
          if (ratio <= 1.0_wp) then
-            call change_rates(plan, model, next, at_next, aged%cycles, error)
+            call change_rates(plan, model, next, at_next, aged%solved, error)
             if (allocated(error)) return
             call note_rows(plan, model, time, time + 0.5_wp*step, now, rates, at_middle, aged)
             call note_rows(plan, model, time + 0.5_wp*step, time + step, middle, at_middle, at_next, aged)
@@ -251,7 +249,7 @@ contains
    end subroutine march_until_used_up
 
    !> A step in two halves, and what their error is.
-   subroutine take_halves(plan, model, now, rates, step, middle, at_middle, next, mistake, cycles, error)
+   subroutine take_halves(plan, model, now, rates, step, middle, at_middle, next, mistake, solved, error)
       !> What is given
       type(plan_t), intent(in) :: plan
       !> The model; its surfaces move
@@ -266,22 +264,22 @@ contains
       type(rates_t), intent(out) :: at_middle
       !> Estimated errors of thicknesses, depths of the cam, depth of the roller [m]
       real(wp), intent(out) :: mistake(3)
-      !> Cycles solved, counted on
-      integer, intent(inout) :: cycles
+      !> Cycles solved before; out: with these
+      type(solved_t), intent(inout) :: solved
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
       type(surfaces_t) :: whole
 
-      call take_step(plan, model, now, rates, step, whole, cycles, error)
-      if (.not. allocated(error)) call take_step(plan, model, now, rates, 0.5_wp*step, middle, cycles, error)
-      if (.not. allocated(error)) call change_rates(plan, model, middle, at_middle, cycles, error)
-      if (.not. allocated(error)) call take_step(plan, model, middle, at_middle, 0.5_wp*step, next, cycles, error)
+      call take_step(plan, model, now, rates, step, whole, solved, error)
+      if (.not. allocated(error)) call take_step(plan, model, now, rates, 0.5_wp*step, middle, solved, error)
+      if (.not. allocated(error)) call change_rates(plan, model, middle, at_middle, solved, error)
+      if (.not. allocated(error)) call take_step(plan, model, middle, at_middle, 0.5_wp*step, next, solved, error)
       if (.not. allocated(error)) mistake = differences(whole, next)
    end subroutine take_halves
 
    !> A step of second order.
-   subroutine take_step(plan, model, now, rates, step, next, cycles, error)
+   subroutine take_step(plan, model, now, rates, step, next, solved, error)
       !> What is given
       type(plan_t), intent(in) :: plan
       !> The model; its surfaces move
@@ -293,8 +291,8 @@ contains
       real(wp), intent(in) :: step
       !> Surfaces at the end
       type(surfaces_t), intent(out) :: next
-      !> Cycles solved, counted on
-      integer, intent(inout) :: cycles
+      !> Cycles solved before; out: with these
+      type(solved_t), intent(inout) :: solved
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -302,7 +300,7 @@ contains
       type(rates_t) :: at_end
 
       call move_surfaces(now, rates, rates, step, guess)
-      call change_rates(plan, model, guess, at_end, cycles, error)
+      call change_rates(plan, model, guess, at_end, solved, error)
       if (.not. allocated(error)) call move_surfaces(now, rates, at_end, step, next)
    end subroutine take_step
 
@@ -362,14 +360,15 @@ contains
       type(quantity_t), allocatable :: quantities(:)
       character(len=:), allocatable :: prefix
       character(len=scope_length) :: scope
+      ! Rows of the history [unit of each quantity]
+      real(wp), allocatable :: rows(:, :)
       integer :: lobe, k
 
       list%count = size(result%summary)
       list%items = result%summary
       list%values = result%summary_values
-      allocate (history%items(0), history%values(0))
+      allocate (history%items(0), history%values(0), rows(history_rows, 0))
       call list_history(quantities)
-      allocate (result%history_values(history_rows, 0))
       do lobe = 1, size(models)
          prefix = trim(lobe_prefix(lobe))
          scope = lobe_scope(lobe)
@@ -386,16 +385,15 @@ contains
             call append_quantity(list, prefix//"running_in_steps", "1", "steps over the hours of running", "running_in", &
                & real(aged(lobe)%steps, wp), scope)
             call append_quantity(list, prefix//"running_in_cycles", "1", "cycles solved for these steps", "running_in", &
-               & real(aged(lobe)%cycles, wp), scope)
+               & real(aged(lobe)%solved%count, wp), scope)
             do k = merge(1, 2, lobe == 1), size(quantities)
                call append_quantity(history, prefix//quantities(k)%name, quantities(k)%unit, quantities(k)%description, &
                   & quantities(k)%source, 0.0_wp, scope)
             end do
-            result%history_values = reshape([result%history_values, aged(lobe)%history(:, merge(1, 2, lobe == 1):)], &
-               & [history_rows, history%count])
+            rows = reshape([rows, aged(lobe)%history(:, merge(1, 2, lobe == 1):)], [history_rows, history%count])
          end associate
       end do
-      result%history = history%items(:history%count)
+      call append_history(result, history%items(:history%count), rows)
       result%summary = list%items(:list%count)
       result%summary_values = list%values(:list%count)
    end subroutine add_running_in

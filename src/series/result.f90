@@ -3,7 +3,7 @@
 !> In: what `camroller_case_result` evaluated. Out: `result_t`, to be read by name or written to a file.
 module camroller_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, not_a_number
    use camroller_error, only : error_t, raise, kind_domain, kind_usage
    use camroller_effect_list, only : choice_t
    use camroller_names, only : name_length
@@ -12,8 +12,8 @@ module camroller_result
    implicit none
    private
 
-   public :: quantity_t, quantity_list_t, append_numbered, append_quantity, take_quantities, result_t, get_series, get_summary, &
-      & find_quantity, check_numbers, is_film, lobe_scope, worse_of
+   public :: quantity_t, quantity_list_t, append_history, append_numbered, append_quantity, take_quantities, result_t, &
+      & get_series, get_summary, find_quantity, check_numbers, is_film, lobe_scope, worse_of
    public :: scope_length, scope_camshaft, scope_engine, scope_case
 
    !> Length of a scope
@@ -65,7 +65,8 @@ module camroller_result
       !> Meaning of what is listed over hours of running, or over the turns of a flexible train that does not repeat every turn;
       !> allocated where the case has such a list
       type(quantity_t), allocatable :: history(:)
-      !> Values, shape (row, quantity): rows evenly spaced in time, the first at the start, or turns; units as in `history`
+      !> Values, shape (row, quantity): rows evenly spaced in time, the first at the start, or turns; not-a-number after the last
+      !> row of a list; units as in `history`
       real(wp), allocatable :: history_values(:, :)
       !> Remarks that do not make the result wrong
       type(remark_t), allocatable :: remarks(:)
@@ -107,6 +108,28 @@ contains
       verdict = index(quantity%name, "film_thickness_") > 0 .or. (index(quantity%name, "film_ratio") > 0 .and. &
          & quantity%source == "film")
    end function is_film
+
+   !> Append a list over hours or turns to those that a result has. Shorter lists are filled up with not-a-number.
+   pure subroutine append_history(result, quantities, rows)
+      !> The result
+      type(result_t), intent(inout) :: result
+      !> What the columns mean
+      type(quantity_t), intent(in) :: quantities(:)
+      !> The rows, shape (row, quantity) [unit of each quantity]
+      real(wp), intent(in) :: rows(:, :)
+
+      ! All lists [unit of each quantity]
+      real(wp), allocatable :: all(:, :)
+      integer :: before
+
+      if (.not. allocated(result%history)) allocate (result%history(0), result%history_values(0, 0))
+      before = size(result%history)
+      allocate (all(max(size(result%history_values, 1), size(rows, 1)), before + size(rows, 2)), source=not_a_number())
+      all(:size(result%history_values, 1), :before) = result%history_values
+      all(:size(rows, 1), before + 1:) = rows
+      call move_alloc(all, result%history_values)
+      result%history = [result%history, quantities]
+   end subroutine append_history
 
    !> Append a quantity to a list, which grows as it has to.
    pure subroutine append_quantity(list, name, unit, description, source, value, scope, least)

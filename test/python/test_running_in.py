@@ -138,3 +138,18 @@ def test_a_film_grows_by_the_stress_over_the_area_that_is_sheared(camroller, tmp
     growth = rate * numpy.exp(-(energy - avogadro * volume * stress) / (gas_constant * (298.15 + flash)))
     # M is 0.2 here, so that the strip is 0.5 % narrower than in the rigid limit, of which an exponent of 0.3 makes 0.15 %
     assert thickness == pytest.approx(growth * 2 * half_width / speed * 900 / 60, rel=0.01)
+
+
+def test_a_flexible_train_lists_hours_and_turns(camroller, tmp_path):
+    """Two turns make a period at 3140 rev/min; so few places do not show what vibrates."""
+    text = DECK.read_text().split("&sweep")[0].replace("speed_rpm = 300", "speed_rpm = 3140")
+    (tmp_path / "flexible.nml").write_text(f"{text}&dynamics\n/\n&spring_surge mass_kg = 0.036 modes = 2\n/\n")
+    settings = ["--set", "output.angle_step_deg=10", "--set", "running_in.places=36", "--set", "running_in.accuracy=0.05"]
+    words = done(camroller, "run", "flexible.nml", *settings, "-o", "hours.h5", folder=tmp_path).stderr
+    assert "between the 36 places of the cam" in words and "take more running_in.places" in words
+    with h5py.File(tmp_path / "hours.h5") as file:
+        assert file["summary/period_cycles"][0] == 2
+        assert numpy.isfinite(file["running_in/roller_wear"][0]).sum() == 41
+        assert numpy.isfinite(file["turns/dynamic_load_max"][0]).sum() == 2
+        assert file["summary/estimated_error_between_places"][0] > 0.1
+    assert "same to the last bit" in done(camroller, "rerun", "hours.h5", folder=tmp_path).stdout

@@ -18,7 +18,7 @@ module test_flexible_train
    use camroller_traction, only : shear_law_names, rolling_law_names
    use reference_cases, only : thesis_case, skewed_case, add_gas_force, add_heat, add_profile, make_model, set_point, &
       & point_speeds, point_viscosities
-   use flexible_cases, only : add_dynamics, add_joints, choose_roller_bearing, random_state
+   use flexible_cases, only : add_dynamics, add_joints, choose_roller_bearing, coat_cam, random_state
    use closeness, only : check_close, check_scaled
    implicit none
    private
@@ -442,6 +442,7 @@ contains
          if (allocated(error)) return
          ! So large that what the cam's speed does to its reversal stands out among the slopes
          if (allocated(model%drag)) model%drag%least = 1.0e4_wp*model%drag%least
+         if (modulo(number, 3) == 0) call coat_cam(model)
          problem%model => model
          ! Every other train does not tell sliding speeds apart that differ by less than 1 cm/s
          problem%resolution%sliding_speed = merge(0.0_wp, 1.0e-2_wp, modulo(number, 2) == 0)

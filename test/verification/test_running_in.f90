@@ -192,7 +192,7 @@ contains
       call compare_with_finer(case, 1.0e-3_wp, aged, error)
       if (allocated(error)) return
       ! as many steps for the first seconds as for the hours of a slow film, each of four cycles
-      call check(error, aged%cycles < 150, "cycles")
+      call check(error, aged%solved%count < 150, "cycles")
    end subroutine test_fast_film
 
    subroutine test_refused(error)
@@ -264,7 +264,7 @@ contains
       if (allocated(failure)) call test_failed(error, failure%message)
       if (allocated(error)) return
       found = largest_difference(case, model, fine)
-      write (words, "(a, es10.2, a, es10.2, a, i0)") "error", found, ", stated", aged%error, ", cycles ", aged%cycles
+      write (words, "(a, es10.2, a, es10.2, a, i0)") "error", found, ", stated", aged%error, ", cycles ", aged%solved%count
       call check(error, found <= aged%error + finest%error .and. found > 1.0e-3_wp*aged%error, trim(words))
       if (allocated(error)) return
       call check(error, aged%error <= accuracy, trim(words))

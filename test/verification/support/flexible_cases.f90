@@ -1,6 +1,7 @@
 !> Cases with a flexible train, and states of it drawn at random.
 module flexible_cases
    use camroller_kinds, only : wp, pi
+   use camroller_cam_surface, only : set_cam
    use camroller_case, only : case_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
@@ -13,7 +14,7 @@ module flexible_cases
    implicit none
    private
 
-   public :: add_dynamics, add_joints, choose_roller_bearing, random_state, stiff_case, take_friction, largest_way
+   public :: add_dynamics, add_joints, choose_roller_bearing, coat_cam, random_state, stiff_case, take_friction, largest_way
 
    !> Way off the rigid train that random states go to [m]: contacts are closed in some and open in others
    real(wp), parameter :: largest_way = 3.0e-5_wp
@@ -140,6 +141,21 @@ contains
          end select
       end associate
    end subroutine choose_roller_bearing
+
+   !> Grow a film on the cam, from nothing to 0.2 um within degrees.
+   subroutine coat_cam(model)
+      !> The model
+      type(model_t), intent(inout) :: model
+
+      real(wp), parameter :: thickness = 2.0e-7_wp ! [m]
+      integer :: i
+
+      allocate (model%surface)
+      model%surface%roughness_ratio = 1.0_wp
+      model%surface%largest_thickness = thickness
+      if (allocated(model%boundary)) model%boundary%film_coefficient = 0.02_wp
+      call set_cam(model%surface, [(thickness*modulo(i, 2), i=1, 72)], [(0.0_wp, i=1, 72)])
+   end subroutine coat_cam
 
    !> Take friction out of a case, and dampers where that is asked for.
    subroutine take_friction(the_case, has_dampers)
