@@ -6,12 +6,13 @@ module camroller_run_facts
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
+   use camroller_case_columns, only : measured_prefix
    use camroller_deck, only : deck_t
    use camroller_deck_document, only : echo_t, get_echo
    use camroller_deck_files, only : list_case_tables
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_tables, only : find_table, table_groups, wanted_columns
-   use camroller_deck_sweep, only : measured_numbers, measured_prefix, sweep_numbers, sweep_size, sweep_t, sweep_words
+   use camroller_deck_sweep, only : measured_numbers, sweep_numbers, sweep_size, sweep_t, sweep_words
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_text_attribute
    use camroller_mistakes, only : mistakes_t

@@ -6,6 +6,7 @@
 !> alone, and nothing is held for cases but the lists that the deck gives.
 module camroller_deck_sweep
    use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_case_columns, only : nothing_measured
    use camroller_kinds, only : wp, not_a_number
    use camroller_names, only : name_length
    use camroller_quotes, only : without_quotes
@@ -20,7 +21,7 @@ module camroller_deck_sweep
    public :: sweep_t, sweep_axis_t, sweep_kind_names, scale_names, is_sample, most_cases
    public :: axis_of, sweep_size, axis_size, repeated_value, sweep_position, sweep_overrides, get_sweep_value, get_values_beside
    public :: sweep_numbers, sweep_words
-   public :: measured_numbers, measured_prefix, nothing_measured
+   public :: measured_numbers
    public :: case_in_words, first_case
 
    !> Ways to make cases of values
@@ -34,8 +35,6 @@ module camroller_deck_sweep
    !> Digits that tell any two numbers apart, and characters that take a number of so many
    integer, parameter :: all_digits = 17, number_width = 32
 
-   !> Beginning of the names of columns of measured values, and what stands where nothing was measured
-   character(len=*), parameter :: measured_prefix = "measured.", nothing_measured = "-"
 
    !> One key that varies: a list of values, or a range
    type :: sweep_axis_t

@@ -13,11 +13,11 @@ module camroller_deck_sweep_read
    use camroller_settings, only : settings_t, take, is_known, is_wrong, get_word, has_group
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_matching, only : override_t, apply_override, find_override
-   use camroller_deck_sweep, only : axis_of, axis_size, get_sweep_value, is_sample, measured_prefix, most_cases, &
-      & nothing_measured, repeated_value, sweep_axis_t, sweep_size, sweep_t
+   use camroller_deck_sweep, only : axis_of, axis_size, get_sweep_value, is_sample, most_cases, &
+      & repeated_value, sweep_axis_t, sweep_size, sweep_t
    use camroller_key_uses, only : is_idle, say_idle
    use camroller_text_list, only : new_text_list, put_text_at, text_at
-   use camroller_case_columns, only : column_t, column_reader_t
+   use camroller_case_columns, only : column_t, column_reader_t, measured_prefix, nothing_measured
    use camroller_sweep_table, only : read_columns
    use camroller_text_file, only : join_path
    use camroller_error, only : error_t

@@ -8,14 +8,13 @@ module camroller_sweep_table
    use camroller_mistakes, only : mistakes_t, add_mistake, shown
    use camroller_text_lines, only : text_lines_t, split_lines, line_at
    use camroller_number_text, only : counted, integer_text, is_number
-   use camroller_deck_sweep, only : measured_prefix, nothing_measured
    use camroller_deck_values, only : next_word, longest_text
    use camroller_table_file, only : on_commas
    use camroller_quotes, only : without_quotes
    use camroller_text_encoding, only : check_encoding
    use camroller_text_file, only : read_text_file
    use camroller_text_list, only : new_text_list, put_text_at
-   use camroller_case_columns, only : column_t, column_reader_t
+   use camroller_case_columns, only : column_t, column_reader_t, measured_prefix, nothing_measured
    implicit none
    private
 

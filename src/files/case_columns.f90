@@ -10,6 +10,9 @@ module camroller_case_columns
 
    public :: column_t, column_reader_t
 
+   !> Beginning of the names of columns of measured values, and what stands where nothing was measured
+   character(len=*), parameter, public :: measured_prefix = "measured.", nothing_measured = "-"
+
    !> One column
    type :: column_t
       !> Name of the key, as `group.key`

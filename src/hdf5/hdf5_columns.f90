@@ -1,18 +1,19 @@
 !> Tables of cases in HDF5 files.
 !>
-!> In: a path. Out: columns of texts. The columns are datasets with one axis, named `group.key`, at the root or in a
-!> group `/sweep`, so that a result file is a table of its own cases.
+!> In: a path. Out: columns of texts. The columns are datasets with one axis, named `group.key`, at the root, where nothing else may
+!> stand, or in a group `/sweep`, so that a result file is a table of its own cases, with what was measured in them.
 module camroller_hdf5_columns
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t
+   use camroller_error, only : error_t, raise, kind_file
    use camroller_number_text, only : number_text
    use camroller_quotes, only : in_quotes
    use camroller_text_list, only : new_text_list, put_text_at
-   use camroller_case_columns, only : column_t, column_reader_t
+   use camroller_case_columns, only : column_t, column_reader_t, measured_prefix, nothing_measured
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_read, only : member_length, open_file, has_member, list_members, read_extents, is_text_dataset, &
-      & read_numbers, read_text
+      & read_numbers, read_text, read_text_attribute
    implicit none
    private
 
@@ -78,13 +79,45 @@ contains
       call list_members(file, group, names, error)
       do i = 1, size(names)
          if (allocated(error)) exit
-         if (index(names(i), ".") == 0) cycle
+         if (index(names(i), ".") == 0) then
+            if (group == "/") call raise(error, kind_file, "'/"//trim(names(i))//"' of '"//path//"' is no column of a table of "// &
+               & "cases: these are datasets at the root, named group.key")
+            cycle
+         end if
          column%key = trim(names(i))
          call read_cells(file, group//trim(names(i)), column, error)
          if (.not. allocated(error)) columns = [columns, column]
       end do
+      if (group /= "/" .and. .not. allocated(error)) call add_measured(file, columns, error)
       call discard_file(file)
    end subroutine read_datasets
+
+   !> Columns of what was measured, of a result file.
+   subroutine add_measured(file, columns, error)
+      !> The open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Columns so far; out: with these
+      type(column_t), allocatable, intent(inout) :: columns(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: group = "/measured"
+      type(column_t) :: column
+      character(len=member_length), allocatable :: names(:)
+      character(len=:), allocatable :: unit
+      integer :: i
+
+      if (.not. has_member(file, group)) return
+      call list_members(file, group, names, error)
+      do i = 1, size(names)
+         if (allocated(error)) return
+         call read_text_attribute(file, group//"/"//trim(names(i)), "units", unit, error)
+         if (allocated(error)) return
+         column%key = measured_prefix//trim(names(i))//" ["//unit//"]"
+         call read_cells(file, group//"/"//trim(names(i)), column, error)
+         if (.not. allocated(error)) columns = [columns, column]
+      end do
+   end subroutine add_measured
 
    !> Values of a dataset as texts.
    subroutine read_cells(file, name, column, error)
@@ -124,7 +157,11 @@ contains
          call read_numbers(file, name, [0], [n], numbers, error)
          if (allocated(error)) return
          do i = 1, n
-            call put_text_at(column%cells, i, number_text(numbers(i), all_digits))
+            if (ieee_is_nan(numbers(i)) .and. index(column%key, measured_prefix) == 1) then
+               call put_text_at(column%cells, i, nothing_measured)
+            else
+               call put_text_at(column%cells, i, number_text(numbers(i), all_digits))
+            end if
          end do
       end if
    end subroutine read_cells

@@ -24,6 +24,8 @@ module camroller_hdf5_shape
    type :: shape_t
       !> Kind of its values
       integer :: kind = of_others
+      !> Does it hold texts of a length that all have? They are not read
+      logical :: has_fixed_texts = .false.
       !> Size of one of them in the file [byte]
       integer(size_t) :: bytes = 0
       !> Number of values
@@ -92,6 +94,7 @@ contains
          call h5tis_variable_str_f(value_type, is_variable, status)
          if (status /= 0) return
          if (is_variable) shape%kind = of_texts
+         shape%has_fixed_texts = .not. is_variable
       else if ((class == h5t_float_f .or. class == h5t_integer_f) .and. shape%bytes <= largest_number) then
          shape%kind = of_numbers
       end if
@@ -140,7 +143,8 @@ contains
 
       if (shape%kind == kind) return
       call raise(error, kind_file, "'"//name//"' of '"//file%file//"' holds no "// &
-         & trim(merge("numbers", "texts  ", kind == of_numbers)))
+         & trim(merge("numbers", "texts  ", kind == of_numbers))//trim(merge(", but texts of fixed length", &
+         & "                           ", shape%has_fixed_texts)))
    end subroutine check_kind
 
    !> Error of reading an object.

@@ -101,7 +101,7 @@ contains
          call add_lines(i)
          reason = ""
          if (len(path) == 0) then
-            reason = "expected include = 'file'"
+            reason = "expected include = 'file', one file in a line"
          else
             call say_circle(origins, chain, join_path(folder, path), reason)
          end if
@@ -197,6 +197,8 @@ contains
                if (next >= len(line)) return
                if (scan(line(next:next), "'""") == 0) return
                closing = index(line(next + 1:), line(next:next))
+               ! Behind the file nothing but a comment
+               if (scan(line(next + closing + 1:)//"!", "!") /= verify(line(next + closing + 1:)//"!", blanks)) closing = 0
                if (closing > 1) path = line(next + 1:next + closing - 1)
                return
             end if

@@ -48,6 +48,8 @@ module camroller_table_file
    character(len=*), parameter, public :: on_commas = "; a comma parts columns, decimals have a point"
    !> What parts columns
    character(len=*), parameter :: separators = " ,;"//char(9)
+   !> Units that a name in a heading may end with, as those of keys do; one letter may be an index
+   character(len=*), parameter :: last_words(*) = [character(len=3) :: "deg", "rad", "mm", "um", "bar", "Pa", "kPa", "MPa"]
    !> An interval so many times the median is a gap [-]
    real(wp), parameter :: gap_ratio = 10.0_wp
 
@@ -177,8 +179,8 @@ contains
       if (present(places)) places = found
    end subroutine read_heading
 
-   !> Next cell of a heading, as `name [unit]`, in small letters. Words are parted by `_`; behind a name that has one, words are
-   !> left out.
+   !> Next cell of a heading, as `name [unit]`, `name (unit)` or `name_unit`, in small letters. Words are parted by `_`; behind a name
+   !> that has one, words are left out.
    pure subroutine next_cell(line, first, name, unit)
       !> The heading, without its comment
       character(len=*), intent(in) :: line
@@ -188,7 +190,7 @@ contains
       character(len=*), intent(out) :: name, unit
 
       character(len=:), allocatable :: cell
-      integer :: last, opening, i
+      integer :: last, opening, i, k
 
       name = ""
       unit = ""
@@ -202,7 +204,8 @@ contains
             if (last > 0) then
                opening = verify(line(first + last:), " ")
                if (opening > 0) then
-                  if (line(first + last + opening - 1:first + last + opening - 1) == "[") last = index(line(first:), "]") + 1
+                  opening = first + last + opening - 1
+                  if (scan(line(opening:opening), "[(") > 0) last = scan(line(first:), "])") + 1
                end if
             end if
             if (last == 1 .or. last > len(line(first:))) last = 0
@@ -210,14 +213,22 @@ contains
          last = merge(len(line), first + last - 2, last == 0)
          cell = trim(adjustl(line(first:last)))
          first = last + 2
-         opening = index(cell//"[", "[")
+         opening = scan(cell//"[", "[(")
          name = to_lower(cell(:opening - 1))
          i = index(trim(name), " ")
          if (i > 0 .and. index(name(:max(i, 1)), "_") > 0) name(i:) = ""
          do i = 1, len_trim(name)
             if (name(i:i) == " ") name(i:i) = "_"
          end do
-         if (opening < len(cell)) unit = adjustl(cell(opening + 1:index(cell//"]", "]") - 1))
+         if (opening < len(cell)) unit = adjustl(cell(opening + 1:scan(cell//"]", "])") - 1))
+         if (unit /= "") cycle
+         ! Of the whole cell, of which a long name holds a part
+         i = index(cell, "_", back=.true.)
+         do k = 1, size(last_words)
+            if (i < 2 .or. to_lower(cell(i + 1:)) /= to_lower(trim(last_words(k)))) cycle
+            unit = last_words(k)
+            name = to_lower(cell(:i - 1))
+         end do
       end do
    end subroutine next_cell
 

@@ -80,6 +80,9 @@ def test_a_heading_of_a_table_is_skipped(camroller, tmp_path, heading):
     ("cam_angle [deg], roller_lift [mm]\n", "'roller_lift', not valve_lift in its second column"),
     ("polar_angle [deg], cam_radius [mm]\n", "'polar_angle', not cam_angle in its first column"),
     ("angle, lift [um]\n", "'um', not 'mm'"), ("cam_angle, valve_lift [m]\n", "'m', not 'mm'"),
+    ("cam_angle_deg, valve_lift_mm\n", ""), ("cam_angle (deg) valve_lift (mm)\n", ""), ("cam_angle_deg valve_lift_um\n", "'um', not 'mm'"),
+    ("cam_angle(deg);valve_lift(um)\n", "'um', not 'mm'"), ("a_rad s_mm\n", "'rad', not angles in degrees"), ("phi_m h_m\n", ""),
+    ("crank_angle_deg, lift_mm\n", "'crank_angle', not cam_angle in its first column"),
 ])
 def test_a_heading_that_says_something_else_than_the_deck_is_refused(camroller, tmp_path, heading, words):
     result, _ = check_table(camroller, tmp_path, heading + ROWS)
@@ -90,6 +93,8 @@ def test_a_heading_that_says_something_else_than_the_deck_is_refused(camroller, 
 
 @pytest.mark.parametrize(("heading", "words"), [
     ("cam_angle [deg], pressure [bar]\n", ""), ("angle, p\n", ""), ("cam_angle [deg], pressure [MPa]\n", "'MPa', not 'bar'"),
+    ("cam_angle_deg pressure_MPa\n", "'MPa', not 'bar'"), ("cam_angle_deg pressure_of_cylinder_kpa\n", "'kPa', not 'bar'"),
+    ("cam_angle_deg pressure_bar\n", ""), ("cam_angle (deg), pressure (MPa)\n", "'MPa', not 'bar'"),
     ("crank_angle [deg], pressure [bar]\n", "'crank_angle', not cam_angle in its first column"),
     ("cam_angle, valve_lift\n", "'valve_lift', not pressure in its second column")])
 def test_a_heading_of_a_table_of_pressure_is_checked(camroller, tmp_path, heading, words):

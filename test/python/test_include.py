@@ -74,6 +74,16 @@ def test_a_missing_file_is_told_with_the_line_of_the_deck(camroller, tmp_path):
     assert result.stderr == "camroller: deck.nml:1:1: there is no file 'none.nml'\n    1 | include = 'none.nml'\n      | " + "^" * 20 + "\n"
 
 
+def test_one_line_includes_one_file(camroller, tmp_path):
+    deck = split_deck(tmp_path)
+    text = deck.read_text(encoding="utf-8")
+    for behind, works in (("", True), ("  ! the oil", True), (", 'parts/output.nml'", False), (" garbage", False), ("'", False)):
+        deck.write_text(text.replace("'parts/oil.nml'", "'parts/oil.nml'" + behind), encoding="utf-8")
+        result = run(camroller, "check", deck)
+        assert result.returncode == (0 if works else 3), behind
+        assert ("expected include = 'file', one file in a line" in result.stderr) != works
+
+
 def test_a_deck_that_includes_itself_says_so(camroller, tmp_path):
     text = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
     (tmp_path / "deck.nml").write_text("include = './deck.nml'\n" + text, encoding="utf-8")

@@ -407,6 +407,30 @@ def test_a_result_is_a_table_of_its_cases(camroller, deck, reference, tmp_path):
             assert first["summary"][name][()].tobytes() == second["summary"][name][()].tobytes(), name
 
 
+def test_a_result_as_a_table_keeps_what_was_measured(camroller, tmp_path):
+    (tmp_path / "cases.txt").write_text(MEASURED)
+    done(camroller, "sweep", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.txt'"), folder=tmp_path)
+    done(camroller, "sweep", write_deck(tmp_path / "again.nml", "kind = 'table' table = 'deck.h5'"), folder=tmp_path)
+    with h5py.File(tmp_path / "deck.h5") as first, h5py.File(tmp_path / "again.h5") as second:
+        assert sorted(first["measured"]) == sorted(second["measured"]) == ["run", "torque"]
+        for name in first["measured"]:
+            assert first["measured"][name][()].tobytes() == second["measured"][name][()].tobytes()
+            assert first["measured"][name].attrs["units"] == second["measured"][name].attrs["units"]
+
+
+@pytest.mark.parametrize("name, values, words", [
+    ("oil_temperature_degC", [25.0, 60.0], "cases.h5' is no column of a table of cases"),
+    ("operating_point/oil_temperature_degC", [25.0, 60.0], "cases.h5' is no column of a table of cases"),
+    ("film.law", numpy.array([b"moes", b"moes"]), "cases.h5' holds no numbers, but texts of fixed length")])
+def test_what_is_no_column_of_a_table_in_hdf5_is_told(camroller, tmp_path, name, values, words):
+    with h5py.File(tmp_path / "cases.h5", "w") as file:
+        file["operating_point.speed_rpm"] = [300.0, 900.0]
+        file[name] = values
+    result = run(camroller, "sweep", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.h5'"), folder=tmp_path)
+    assert result.returncode != 0 and words in result.stderr and f"'/{name.split('/')[0]}' of" in result.stderr
+    assert not (tmp_path / "deck.h5").exists()
+
+
 @pytest.mark.parametrize("sweep, words", [
     ("kind = 'sobol' key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 900", "needs 'cases'"),
     ("kind = 'zip' key_1 = 'operating_point.speed_rpm' values_1 = 1, 2 key_2 = 'roller.radius_mm' values_2 = 8", "one length"),
