@@ -214,8 +214,8 @@ contains
       type(oil_t), intent(in) :: oil
       !> Rise of the film's temperature [K]
       real(wp), intent(in) :: rise
-      !> Relative errors of the viscosity at ambient pressure and of the pressure-viscosity coefficient; the latter is zero with
-      !> Roelands' law, which has it from the viscosity [-]
+      !> Relative errors of the viscosity at ambient pressure and of the pressure-viscosity coefficient, which with Roelands' law
+      !> follows from the viscosity, by the index of the oil around; of what has no law none [-]
       real(wp), intent(out) :: errors(2)
       !> Has the lubricant's law a value there?
       logical, intent(out) :: has_law
@@ -232,7 +232,11 @@ contains
       call warm_oil(part%hot, oil, rise, warm, change, slope)
       ! A viscosity that is given holds at the oil's temperature alone
       if (lubricant%temperature_law /= temperature_law_names(law_direct)) errors(1) = warm%viscosity/own%viscosity - 1.0_wp
-      if (oil%pressure_law /= law_roelands) errors(2) = warm%pressure_viscosity/own%pressure_viscosity - 1.0_wp
+      if (oil%pressure_law /= law_roelands) then
+         errors(2) = warm%pressure_viscosity/own%pressure_viscosity - 1.0_wp
+      else if (own%is_estimated .or. allocated(lubricant%pressure_viscosity_points)) then
+         errors(2) = oil%pressure_viscosity*warm%roelands_exponent/oil%roelands_exponent/own%pressure_viscosity - 1.0_wp
+      end if
    end subroutine compare_hot_oil
 
    !> Factor on the film by shear heating of the inlet, with its slopes: by `L = beta eta0 u^2/k_oil`, with Gupta and others by

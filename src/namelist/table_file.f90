@@ -179,8 +179,8 @@ contains
       if (present(places)) places = found
    end subroutine read_heading
 
-   !> Next cell of a heading, as `name [unit]`, `name (unit)` or `name_unit`, in small letters. Words are parted by `_`; behind a name
-   !> that has one, words are left out.
+   !> Next cell of a heading, as `name [unit]`, `name (unit)` or `name_unit`, in small letters. Words are parted by `_`; behind a
+   !> name that has one, words are left out.
    pure subroutine next_cell(line, first, name, unit)
       !> The heading, without its comment
       character(len=*), intent(in) :: line

@@ -94,12 +94,17 @@ contains
       !> Fraction of the cycle that the state represents [-]
       real(wp), intent(in) :: weight
 
+      ! Groups of the film's law, with the load that it takes
+      type(groups_t) :: of_film
       logical :: is_inside
 
       associate (groups => film_groups(model, state%position, state%contact))
          is_inside = .true.
+         of_film = groups
          if (state%contact%is_touching) then
-            is_inside = is_in_range(model%film_law, groups, model%film_table)
+            if (.not. takes_whole_load(model%film_law)) of_film%load = groups%load*(1.0_wp - state%contact%asperity_load &
+               & /state%contact%load)
+            is_inside = is_in_range(model%film_law, of_film, model%film_table)
          else
             shares%lost_share = shares%lost_share + weight
          end if
@@ -119,7 +124,7 @@ contains
             if (.not. takes_whole_load(model%film_law)) call note_thin(shares, state%contact%film_ratio, angle, weight)
             call note_shear(shares, model, state, groups, weight)
          end if
-         call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
+         call note_film(shares%film_range, of_film, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares
 

@@ -8,7 +8,7 @@ module test_heat_laws
       & flash_resistance, film_resistance, log_viscosity_change, hot_shear
    use camroller_heat, only : heat_t, heat_part_t, new_heat_part, set_heat_oil, inlet_factor, inlet_law_names, &
       & is_inlet_in_range, hot_oil_range, compare_hot_oil
-   use camroller_lubricant, only : lubricant_t, oil_t, get_oil, pressure_law_names, law_roelands
+   use camroller_lubricant, only : lubricant_t, oil_t, get_oil, pressure_law_names, law_cameron, law_roelands
    use camroller_names, only : index_of_name
    use camroller_traction, only : law_newtonian, law_eyring, cap_smooth, limit_shear
    use closeness, only : check_close, check_scaled, roundings
@@ -358,7 +358,8 @@ contains
       end do
    end subroutine test_oils
 
-   !> Vogel's law, Walther's, one that is given at a temperature, and a coefficient of which nothing but the data sheet is known.
+   !> Vogel's law, one that is given at a temperature, Walther's with a coefficient that is constant, estimated, and estimated with
+   !> Roelands' law; with that a coefficient given at one temperature says nothing of others.
    subroutine test_hot_range(error)
       type(error_type), allocatable, intent(out) :: error
       type(lubricant_t) :: lubricant
@@ -366,12 +367,13 @@ contains
       type(oil_t) :: oil, own, warm
       type(error_t), allocatable :: failure
       ! Largest rise of each [K]; relative errors, change of ln(viscosity) [-], its slope [1/K]
-      real(wp) :: ranges(4), errors(2), change, slope
+      real(wp) :: ranges(6), errors(2), change, slope
       integer :: i
       logical :: has_law
 
-      do i = 1, 4
-         lubricant = lubricant_t(pressure_viscosity=merge(0.0_wp, 2.2e-8_wp, i == 4))
+      do i = 1, size(ranges)
+         lubricant = lubricant_t(pressure_viscosity=merge(0.0_wp, 2.2e-8_wp, i == 4 .or. i == 5), &
+            & pressure_law=pressure_law_names(merge(law_roelands, law_cameron, i > 4)))
          select case (i)
          case (1)
             lubricant%temperature_law = "vogel"
@@ -403,6 +405,9 @@ contains
          call check_close(error, 1.0_wp + errors(1), oil%viscosity*exp(change)/own%viscosity, roundings, "viscosity")
          if (allocated(error)) return
          warm%pressure_viscosity = oil%pressure_viscosity*exp(-100.0_wp*part%hot%pressure_fall)
+         ! Z = alpha p_r/(ln eta0 + 9.67)
+         if (i == 5) warm%pressure_viscosity = oil%pressure_viscosity*(1.0_wp + change/(log(oil%viscosity) + 9.67_wp))
+         if (i == 6) own%pressure_viscosity = warm%pressure_viscosity
          call check_close(error, 1.0_wp + errors(2), warm%pressure_viscosity/own%pressure_viscosity, roundings, "coefficient")
          if (allocated(error)) return
       end do
