@@ -7,7 +7,7 @@ SHELL := /bin/bash
 
 FPM := tools/fpm
 PYTHON := .venv/bin/python
-# that of .venv, which builds the wheel in the same folder, where it is there: another version would compile everything again
+# that of .venv where it is there, which the tests take as well
 CMAKE = $(or $(wildcard .venv/bin/cmake),cmake)
 
 # Both builds keep to the standard and never let the compiler change values: no -ffast-math, and no fused
@@ -136,7 +136,8 @@ dynamics: build ## a flexible train at four speeds and over all speeds: figures 
 
 install: ## libraries, header, modules and program by CMake, into PREFIX=/usr/local; IO=OFF leaves out what needs HDF5
 	@mkdir -p build
-	@$(CMAKE) -S . -B build/cmake -DCMAKE_INSTALL_PREFIX="$(or $(PREFIX),/usr/local)" -DCAMROLLER_IO=$(or $(IO),ON) > build/cmake.log
+	@$(CMAKE) -S . -B build/cmake -DCMAKE_INSTALL_PREFIX="$(or $(PREFIX),/usr/local)" -DCAMROLLER_IO=$(or $(IO),ON) \
+	  -DCAMROLLER_BUNDLE_DIR=lib/camroller > build/cmake.log
 	@$(CMAKE) --build build/cmake -j2 >> build/cmake.log 2>&1 || { tail -n 20 build/cmake.log; exit 1; }
 	@$(CMAKE) --install build/cmake
 

@@ -34,6 +34,7 @@ module camroller_rerun_command
    use camroller_stop_signal, only : heed_stop_signals
    use camroller_table_file, only : read_heading, table_t
    use camroller_team, only : team_t
+   use camroller_version, only : build_commit, names_sources
    implicit none
    private
 
@@ -326,12 +327,26 @@ contains
       end do
       if (sink%failing > 0) text = text//new_line("a")//"  "//counted(sink%failing, "case")//agreeing(sink%failing, " has", &
          & " have")//" no result now, first case "//integer_text(sink%first_failing)//": "//sink%message
-      if (facts == "") then
-         text = text//new_line("a")//"  the same version, commit, compiler and options made the file"
-      else
-         text = text//facts
-      end if
-      call raise(error, kind_difference, text)
+      call raise(error, kind_difference, text//builds_in_words(facts, build_commit))
    end subroutine conclude
+
+   !> What tells the build of a file from this one, each fact on a line of its own.
+   pure function builds_in_words(facts, commit) result(words)
+      !> Lines of facts that differ
+      character(len=*), intent(in) :: facts
+      !> Commit of this build
+      character(len=*), intent(in) :: commit
+      !> The words
+      character(len=:), allocatable :: words
+
+      if (facts /= "") then
+         words = facts
+      else if (names_sources(commit)) then
+         words = new_line("a")//"  the same version, commit, compiler and options made the file"
+      else
+         words = new_line("a")//"  the same version, compiler and options made the file; whether the same sources did is not "// &
+            & "known, since the commit of both is '"//commit//"'"
+      end if
+   end function builds_in_words
 
 end module camroller_rerun_command

@@ -15,6 +15,7 @@ fpm=$(realpath -s "$fpm")
 rm -rf build/package
 mkdir -p build/package
 cp -r src app include build/package
+tools/write_commit.sh build/package/include/build_commit.inc
 sed -e '/^\[dev-dependencies\]/,/^$/d' -e '/^\[\[test\]\]/,/^$/d' fpm.toml > build/package/fpm.toml
 cd build/package
 "$fpm" install --flag "-std=f2018 ${FFLAGS:--O3 -g1} -ffp-contract=off" --prefix "$prefix"

@@ -6,16 +6,30 @@ module camroller_version
    implicit none
    private
 
-   public :: version_text, version_number, build_commit, compiler_facts, drop_repeats
+   public :: version_text, version_number, build_commit, compiler_facts, drop_repeats, names_sources
 
    !> Version as `major.minor.patch`
    character(len=*), parameter :: version_text = "0.2.0"
    !> Version as 10000*major + 100*minor + patch
    integer, parameter :: version_number = 200
-   ! Commit of the sources, `build_commit`: known when built by make, "unknown" otherwise
+   ! What was built, `build_commit`: the commit of the sources; a checksum of them where they differ from it or are of no commit;
+   ! "unknown" alone where nothing was found out, see tools/write_commit.sh
    include "build_commit.inc"
 
 contains
+
+   !> Were two builds with this same commit made of the same sources? Not known where it is "unknown" or ends with "changed",
+   !> without a checksum.
+   pure function names_sources(commit) result(verdict)
+      !> Commit of a build
+      character(len=*), intent(in) :: commit
+      !> Were they?
+      logical :: verdict
+
+      character(len=*), parameter :: unsaid(*) = [character(len=7) :: "unknown", "changed"]
+
+      verdict = all(unsaid /= commit(index(commit, "-", back=.true.) + 1:))
+   end function names_sources
 
    !> Compiler and options that this library was built with.
    subroutine compiler_facts(compiler, options)

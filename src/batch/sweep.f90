@@ -30,6 +30,7 @@ module camroller_sweep
    use camroller_sweep_file, only : conclude, make_result, open_result, refuse_other, scan_all, study_t, &
       & sweep_made, sweep_options_t, sweep_report_t, sweep_shard_done, sweep_was_complete, tell_damages
    use camroller_team, only : agreed_code, team_t
+   use camroller_version, only : build_commit, names_sources
    implicit none
    private
 
@@ -96,6 +97,7 @@ contains
 
       call begin_study(deck, path, options, study, error)
       if (allocated(error)) return
+      call tell_unknown_build(monitor)
       call make_result(study, deck, options, .true., monitor, report, error)
    end subroutine merge_sweep
 
@@ -209,6 +211,7 @@ contains
       allocate (numbers(0))
       if (team%rank == 0) then
          call find_work(options, study, monitor, report, earlier_failure, error)
+         if (options%is_resumed .and. run_total(study%runs) <= study%last - study%first) call tell_unknown_build(monitor)
          numbers = [study%runs%first, study%runs%count]
       end if
       call team%share(numbers)
@@ -287,6 +290,16 @@ contains
       call tell_damages(index, monitor)
       if (run_total(study%runs) > 0) call monitor%say("remark: to be computed: "//runs_in_words(study%runs), .true.)
    end subroutine find_work
+
+   !> Say where another build may have computed cases that are there, and cannot be told from this one.
+   subroutine tell_unknown_build(monitor)
+      !> What is told about progress
+      class(monitor_t), intent(inout) :: monitor
+
+      if (names_sources(build_commit)) return
+      call monitor%say("remark: the commit of this build is '"//build_commit//"': whether the same sources computed the cases "// &
+         & "that are there is not known", .false.)
+   end subroutine tell_unknown_build
 
    !> Compute what is to be computed, into the part file of this process.
    subroutine compute(deck, options, study, monitor, team, loop, error)

@@ -1,7 +1,7 @@
 !> Tests of the version and build facts.
 module test_version
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller_version, only : version_text, version_number, build_commit, compiler_facts, drop_repeats
+   use camroller_version, only : version_text, version_number, build_commit, compiler_facts, drop_repeats, names_sources
    implicit none
    private
 
@@ -17,7 +17,9 @@ contains
       testsuite = [ &
          new_unittest("the manifest carries the version of the library", manifest_agrees), &
          new_unittest("the version number is the version text", number_agrees), &
-         new_unittest("the commit is a hash or said to be unknown", commit_is_a_hash), &
+         new_unittest("the commit is a hash or said to be unknown, with a checksum of changed sources", commit_is_a_hash), &
+         new_unittest("a commit names the sources but where it is unknown or they are changed, without a checksum", &
+            & sources_are_named), &
          new_unittest("compiler and options are known", facts_are_given), &
          new_unittest("options that the compiler repeats for each file are given once, with their values", options_once) &
          ]
@@ -64,12 +66,26 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=*), parameter :: digits = "0123456789abcdef"
+      character(len=:), allocatable :: form
+      integer :: i
 
-      if (build_commit == "unknown") return
-      call check(error, len(build_commit) >= 12, "too short for a hash: "//build_commit)
-      if (allocated(error)) return
-      call check(error, verify(build_commit(:min(12, len(build_commit))), digits), 0, "no hash: "//build_commit)
+      form = build_commit
+      do i = 1, len(form)
+         if (index(digits, form(i:i)) > 0) form(i:i) = "#"
+      end do
+      call check(error, any(form == [character(len=29) :: "############", "############-#h#ng##-########", "unknown-########", &
+         & "unknown"]), "no hash: "//build_commit)
    end subroutine commit_is_a_hash
+
+   subroutine sources_are_named(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(error, all([names_sources("0123456789ab"), names_sources("0123456789ab-changed-01234567"), &
+         & names_sources("unknown-01234567")]), "sources are named, and said not to be")
+      if (allocated(error)) return
+      call check(error, any([names_sources("unknown"), names_sources("0123456789ab-changed")]), .false., &
+         & "sources are not named, and said to be")
+   end subroutine sources_are_named
 
    subroutine facts_are_given(error)
       type(error_type), allocatable, intent(out) :: error

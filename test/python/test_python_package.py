@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sys
+import tomllib
 import venv
 
 import h5py
@@ -424,3 +426,21 @@ import camroller, ctypes, pathlib
 print(ctypes.CDLL(str(path)).openblas_get_num_threads())
 """
     assert in_python(installed, words, OPENBLAS_NUM_THREADS="2") == ["1"]
+
+
+def test_the_wheel_leaves_the_folder_of_make_install_alone():
+    """Where CMake keeps settings: with those of the wheel no program is built, and runtime libraries go beside those of the system."""
+    settings = tomllib.loads((ROOT / "python" / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["scikit-build"]
+    folder = (ROOT / "python" / settings["build-dir"]).resolve()
+    commands = printed("make", "-n", "install", "PREFIX=/nowhere")
+    (installed,) = re.findall(r"-S \. -B (\S+)", commands)
+    (described,) = re.findall(r"cmake -S \. -B (\S+)", (ROOT / "doc" / "hosts.md").read_text(encoding="utf-8"))
+    assert installed == described
+    assert folder.parent == ROOT / "build" and folder not in (ROOT / installed, CMAKE_BUILD)
+
+
+def test_make_install_gives_all_settings_of_the_wheel_anew():
+    """In a folder that was configured for a wheel."""
+    settings = tomllib.loads((ROOT / "python" / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["scikit-build"]
+    commands = printed("make", "-n", "install", "PREFIX=/nowhere")
+    assert set(settings["cmake"]["define"]) <= set(re.findall(r"-D(\w+)=", commands))

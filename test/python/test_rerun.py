@@ -44,6 +44,20 @@ def test_differences_are_reported(camroller, folder, tmp_path):
     assert "  commit: 'another' made the file, this is '" in result.stderr
 
 
+def test_the_same_build_is_claimed_only_where_its_sources_are_known(camroller, folder, tmp_path):
+    shutil.copy(folder / "deck.h5", tmp_path / "changed.h5")
+    with h5py.File(tmp_path / "changed.h5", "r+") as file:
+        file["summary/mean_torque_drive"][3] *= 2
+        commit = file["run"].attrs["commit"]
+    result = run(camroller, "rerun", "changed.h5", folder=tmp_path)
+    assert result.returncode == DIFFERENCE
+    claimed = "\n  the same version, commit, compiler and options made the file\n"
+    doubted = ("\n  the same version, compiler and options made the file; whether the same sources did is not known, since the commit of both "
+               f"is '{commit}'\n")
+    named = commit.rpartition("-")[2] not in ("unknown", "changed")
+    assert (claimed in result.stderr, doubted in result.stderr) == (named, not named)
+
+
 def rewrite(file, name, number, value):
     """Give one case another value."""
     values = file[name][()]

@@ -234,8 +234,8 @@ def test_objects_of_moved_sources_are_not_linked(tmp_path):
 
 def test_clean_keeps_what_was_fetched_and_results(tmp_path):
     kept = ["build/cache.toml", "build/dependencies/a", "build/pkgconfig/hdf5.pc", "build/without-open-mpi", "results/a.h5"]
-    built = ["build/cmake/Makefile", "build/cmake-tests/Makefile", "build/cmake.lock", "build/gfortran_1/a.o", "build/scratch-1-a",
-             "build/test.log", "bench/build/a.o"]
+    built = ["build/cmake/Makefile", "build/cmake-tests/Makefile", "build/cmake.lock", "build/wheel/Makefile", "build/gfortran_1/a.o",
+             "build/scratch-1-a", "build/test.log", "bench/build/a.o"]
     for name in kept + built:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
