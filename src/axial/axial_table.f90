@@ -458,8 +458,8 @@ contains
       state%ends = state%ends*(known%mean/lengths%mean)
    end function axial_state
 
-   !> Parts of the roller that the dry contact loads, and on which the gap is wider by no more than a film than where that ends. In
-   !> a rigid contact of constant viscosity the load goes with one over the film, so that there the load per length is at least
+   !> Parts of the roller that the dry contact loads, and on which the gap is wider by no more than a film than the widest on a part so
+   !> long. In a rigid contact of constant viscosity the load goes with one over the film, so that there the load per length is at least
    !> half as large as where the dry contact ends.
    pure function oiled_parts(part, load, radius, film) result(parts)
       !> The table
@@ -469,13 +469,17 @@ contains
       !> Both parts [-]
       real(wp) :: parts(2)
 
-      ! Loads per length over W/L [-]
-      real(wp) :: loads(size(part%gaps))
+      ! Lengths and their slopes [m], [-]; gap where the load ends [m]
+      type(line_lengths_t) :: lengths, slopes(2)
+      real(wp) :: edge
+      integer :: i
 
-      call slice_loads(part, load, radius, loads)
-      parts(1) = count(loads > 0.0_wp)
-      parts(2) = count(part%gaps <= maxval(part%gaps, loads > 0.0_wp) + film)
-      parts = parts/size(loads)
+      call effective_lengths(part, load, radius, lengths, slopes(1), slopes(2))
+      associate (gaps => part%gaps, n => size(part%gaps))
+         parts(1) = lengths%loaded/part%length
+         edge = minval(gaps, mask=[(count(gaps <= gaps(i)) >= n*parts(1), i=1, n)])
+         parts(2) = max(parts(1), real(count(gaps <= edge + film), wp)/n)
+      end associate
    end function oiled_parts
 
 end module camroller_axial_table

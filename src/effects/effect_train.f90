@@ -3,7 +3,7 @@
 !> In: a model, rigid or flexible. Out: the load without friction at even angles, the amplitude of its vibration, the torque that
 !> dampers and leak take. The bent train is in equilibrium under the inertia of a rigid one, its adjuster leaks and is filled again;
 !> that load drives the train's lowest mode, and the rigid lift the modes of the spring, each as an oscillator with exact steps.
-!> What parts or returns within the event is not estimated.
+!> What parts or returns within the event is not estimated, nor a train that friction shakes because it falls with speed.
 module camroller_effect_train
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_contact_compliance, only : series_approach
@@ -12,6 +12,7 @@ module camroller_effect_train
    use camroller_error, only : error_t
    use camroller_flexible_parts, only : flexible_t
    use camroller_flexible_setup, only : find_rest, rest_t
+   use camroller_joints, only : has_curves
    use camroller_kinematics, only : position_t
    use camroller_lash_adjuster, only : chamber_volume, relative_volume
    use camroller_model, only : model_t
@@ -99,6 +100,12 @@ contains
       if (model%flexible%lash > 0.0_wp) then
          train%trouble = "the load of a train with lash on its base circle is not that of a rigid one"
          return
+      end if
+      if (allocated(model%joints)) then
+         if (has_curves(model%joints)) then
+            train%trouble = "friction that falls with speed at tip, guide or pivot may shake the train"
+            return
+         end if
       end if
       call find_modes(model, outlook)
       if (.not. outlook%load_shape**2 > 0.0_wp) then

@@ -24,7 +24,7 @@ module camroller_flexible_turn
    implicit none
    private
 
-   public :: turn_t, start_turns, prepare, set_tolerance, set_sliding_tolerance, integrate_turn
+   public :: turn_t, start_turns, prepare, set_tolerance, set_sliding_tolerance, integrate_turn, find_fastest
 
    !> Step that an integration begins with [rad]
    real(wp), parameter :: first_step = 1.0e-3_wp
@@ -208,9 +208,10 @@ contains
       !> The words
       character(len=:), allocatable, intent(out) :: text
 
-      character(len=*), parameter :: keys(*) = [character(len=34) :: "dynamics.finger_stiffness_N_m", &
+      character(len=*), parameter :: keys(*) = [character(len=38) :: "dynamics.finger_stiffness_N_m", &
          & "dynamics.pad_stiffness_N_m", "dynamics.seat_stiffness_N_m", "lash_adjuster.stop_stiffness_N_m", &
-         & "lash_adjuster.gap_um", "lash_adjuster.check_area_mm2"]
+         & "lash_adjuster.gap_um", "lash_adjuster.check_area_mm2", "valve_tip.reversal_speed_m_s", &
+         & "stem_seal.reversal_speed_m_s", "guide_side_load.reversal_speed_m_s", "finger_pivot.reversal_speed_m_s"]
       type(flows_t) :: flows
       ! Natural frequencies of parts, decay of pressure by leak and check valve [1/s]; bulk modulus [Pa], its slope [-]
       real(wp) :: rates(size(keys)), modulus, slope
@@ -227,10 +228,37 @@ contains
                rates(5:6) = modulus/given%volume*[flows%leak_slope, abs(flows%check_slope)]
             end associate
          end if
+         if (allocated(model%joints)) rates(7:) = reversal_rates(model)
       end associate
       text = "the fastest part of the train, with "//number_text(maxval(rates), 2)//" 1/s, is that of "// &
          & trim(keys(maxloc(rates, 1)))//": look there, and for a damping of 0"
    end subroutine find_fastest
+
+   !> Rates at which joints brake what slides in them while their friction reverses, by forces at full lift without inertia.
+   function reversal_rates(model) result(rates)
+      !> The model, with joints
+      type(model_t), intent(in) :: model
+      !> Tip, seal, guide's ends, pivot; zero for those that are not there [1/s]
+      real(wp) :: rates(4)
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      real(wp) :: load ! [N]
+      integer :: status
+
+      rates = 0.0_wp
+      call evaluate_geometry(model, 0.0_wp, position, status)
+      if (status /= 0) return
+      call evaluate_moments(model%train, position, 0.0_wp, 0.0_wp, moments)
+      load = abs(moments%total/position%normal_arm)
+      associate (joints => model%joints, mass => model%flexible%effective_mass)
+         if (allocated(joints%tip)) rates(1) = joints%tip%law%coefficient*load/(mass*joints%tip%law%reversal_speed)
+         if (allocated(joints%seal)) rates(2) = joints%seal%lip_force/(mass*joints%seal%reversal_speed)
+         if (allocated(joints%side)) rates(3) = joints%side%law%coefficient*load/(mass*joints%side%law%reversal_speed)
+         if (allocated(joints%pivot)) rates(4) = joints%pivot%law%coefficient*load*joints%pivot%ball_radius**2 &
+            & /(model%train%finger_inertia*joints%pivot%law%reversal_speed)
+      end associate
+   end function reversal_rates
 
    !> Say so where an integration ended because the roller has left the cam and no state follows: the finger has turned over, or no
    !> point of the cam is nearest.

@@ -26,6 +26,9 @@ module camroller_train_remarks
 
    public :: judge_train
 
+   !> Acceleration of free fall [m/s^2]
+   real(wp), parameter :: gravity = 9.81_wp
+
 contains
 
    !> Remarks on a train.
@@ -57,11 +60,15 @@ contains
          if (model%flexible%lash > 0.0_wp) text = text//"; load_factor leaves out the impact that takes up the lash"
          call add_remark(remarks, lost_contact, text, 100.0_wp*lost_share)
       end if
-      if (solution%lowest(smallest_pivot_force) < 0.0_wp) then
-         call add_remark(remarks, open_pivot, "the joint of finger and pivot is in tension for "// &
-            & number_text(100.0_wp*solution%mean(tension_share), 3)//" % of the cycle, by up to "// &
-            & number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//speed// &
-            & "; the model keeps it closed, a real one opens", -solution%lowest(smallest_pivot_force))
+      ! What its weight, which the model has not, would hold is no tension
+      if (-solution%lowest(smallest_pivot_force) > gravity*model%flexible%finger_mass) then
+         text = "the joint of finger and pivot is in tension"
+         ! A finger that is free in its lash is drawn by its drag alone
+         if (model%flexible%lash <= 0.0_wp) text = text//" for "//number_text(100.0_wp*solution%mean(tension_share), 3)// &
+            & " % of the cycle"
+         text = text//", by up to "//number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//speed// &
+            & "; the model keeps it closed, a real one opens"
+         call add_remark(remarks, open_pivot, text, -solution%lowest(smallest_pivot_force))
       end if
       if (solution%highest(bounces) > 0.0_wp) then
          call add_remark(remarks, bouncing_valve, "the valve bounces "//trim(times_text(solution%mean(bounces)))// &

@@ -163,9 +163,10 @@ contains
       !> 0 fine, positive where there is no such pressure or volume
       integer, intent(out) :: status
 
-      ! Bulk modulus [Pa], its slope [-], volume [m^3]; smallest pressure and volume that are evaluated [Pa], [-]
+      ! Bulk modulus [Pa], its slope [-], volume [m^3]; smallest pressure and volume that are evaluated [Pa], [-]: air of 1e-4
+      ! of the oil's volume takes as much room as that at 2.5e-6 of the ambient pressure
       real(wp) :: modulus, slope, volume
-      real(wp), parameter :: least_pressure = -0.9999_wp*ambient_pressure, least_part = 1.0e-3_wp
+      real(wp), parameter :: least_pressure = -(1.0_wp - 1.0e-9_wp)*ambient_pressure, least_part = 1.0e-3_wp
 
       associate (adjuster => model%flexible%adjuster)
          now%pressure = state(at_pressure)

@@ -152,7 +152,8 @@ contains
       reached = reached//" GPa; "
       if (largest > limit) call add_remark(remarks, beyond_pressure_law, reached//"the law '"// &
          & trim(model%lubricant%pressure_law)//"' of viscosity over pressure holds to about "//number_text(1.0e-9_wp*limit, 2)// &
-         & " GPa, and traction and slip follow it (pressure_law = 'roelands' has no such limit)", largest/limit)
+         & " GPa, and traction and slip follow it (pressure_law = 'roelands' is used above that, too, "// &
+         & "where it extrapolates from measurements)", largest/limit)
       limit = static_limit
       if (model%hardness > 0.0_wp) limit = yield_part*model%hardness
       if (largest > limit .and. model%hardness > 0.0_wp) then

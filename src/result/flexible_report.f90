@@ -451,7 +451,8 @@ contains
          & "valve at full lift, with stiffness of usual size where there is no &dynamics", "dynamics", &
          & outlook%frequencies(1)/two_pi, scope)
       call append_quantity(list, prefix//"load_factor", "1", "estimate: largest contact load of a train that vibrates at that "// &
-         & "frequency over the largest of a rigid one, without impacts that take up lash", "dynamics", outlook%load_factor, scope)
+         & "frequency over the largest of a rigid one, without friction of the joints and impacts that take up lash", "dynamics", &
+         & outlook%load_factor, scope)
       do n = 1, size(outlook%surge)
          call append_quantity(list, prefix//"surge_estimate_"//integer_text(n), "N", "estimate: largest force of spring mode "// &
             & integer_text(n)//" with the lift of a rigid train", "dynamics", outlook%surge(n), scope)

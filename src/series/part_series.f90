@@ -4,7 +4,8 @@
 module camroller_part_series
    use camroller_kinds, only : wp, two_pi
    use camroller_axial_film, only : smallest_film
-   use camroller_axial_table, only : axial_state_t, slice_loads
+   use camroller_axial_loads, only : solved_loads
+   use camroller_axial_table, only : axial_state_t
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_cam_surface, only : value_at_angle
    use camroller_case, only : camshaft_number, case_t
@@ -240,7 +241,7 @@ contains
          mean = state%contact%load/model%contact_width
          pressure = largest_pressure(model, state)
          edge_pressure = peak_pressure(maxval(along%ends)*mean, state%position%equivalent_radius, 1.0_wp, model%modulus)
-         if (case%roller_profile%slice_series) call slice_loads(model%axial, state%contact%load, &
+         if (case%roller_profile%slice_series) call solved_loads(model%axial, state%contact%load, &
             & state%position%equivalent_radius, loads)
       end if
       call add(list, "effective_contact_length", "m", "length of the line contact that stands for the roller; zero without "// &

@@ -8,6 +8,8 @@ import h5py
 import numpy as np
 import pytest
 
+from conftest import done
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks/dynamics.nml"
 RIGID = ROOT / "decks/thesis.nml"
@@ -509,3 +511,25 @@ def test_energy_lost_in_the_spring_is_that_of_its_modes(tmp_path, camroller):
             modes = modes + mass * ratio * mode * np.pi * np.sqrt(stiffness / mass) * speed**2
         # Half a degree is too coarse for the fifth mode where the valve leaves its seat and returns, a tenth of the turn at most
         assert np.quantile(np.abs(powers["spring"] - modes), 0.9) < 5e-3 * modes.max()
+
+
+def test_an_empty_chamber_with_little_air_is_computed_and_told(tmp_path, camroller):
+    """Its pressure is 1e-5 of the ambient one and less, where the little air in the oil makes the room."""
+    words = ["--set", "operating_point.speed_rpm=4500", "--set", "lash_adjuster.air_content=0.001", "--set", "lash_adjuster.volume_cm3=0.06",
+             "--set", "lash_adjuster.lowest_mm=-0.5", "--set", "lash_adjuster.highest_mm=3", "--set", "output.angle_step_deg=10"]
+    lines = done(camroller, "run", ROOT / "decks/lash_adjuster.nml", "--no-sweep", *words, "-o", "empty.h5", folder=tmp_path).stderr
+    assert "nearly at a vacuum" in lines
+
+
+def test_a_finger_free_in_its_lash_is_in_tension_without_a_share_of_the_cycle(tmp_path, camroller):
+    """A pin's film draws it by 0.05 N on the base circle, two thirds of the cycle."""
+    words = ["--set", "dynamics.lash_mm=0.3", "--set", "output.angle_step_deg=10", "--set", "needle_bearing.friction_coefficient=0.1"]
+    for key, value in (("kind", "journal"), ("pin_width_mm", 9), ("pin_radial_clearance_um", 20), ("pin_roughness_um", 0.3),
+                       ("pin_modulus_GPa", 180)):
+        words += ["--set", f"needle_bearing.{key}={value}"]
+    done(camroller, "run", ROOT / "decks/dynamics.nml", "--no-sweep", "--set", "operating_point.speed_rpm=900", *words, "-o", "free.h5",
+         folder=tmp_path)
+    with h5py.File(tmp_path / "free.h5") as file:
+        lines = "\n".join(file["run/warnings"].asstr()[...]).splitlines()
+        share = file["summary/joint_tension_share"][0]
+    assert share > 0.5 and [line for line in lines if "in tension, by up to" in line] and not [line for line in lines if "in tension for" in line]

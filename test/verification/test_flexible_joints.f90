@@ -5,6 +5,7 @@ module test_flexible_joints
    use camroller_error, only : error_t, kind_deck
    use camroller_case, only : case_t
    use camroller_flexible_pivot, only : ball_t, hold_ball
+   use camroller_flexible_turn, only : find_fastest
    use camroller_model, only : model_t, new_model
    use camroller_pivot_friction, only : finger_pivot_t, new_pivot_part, pivot_part_t
    use camroller_result, only : get_summary, result_t
@@ -28,7 +29,8 @@ contains
          new_unittest("moment and force of the pivot's ball agree, and slopes with difference quotients", test_ball), &
          new_unittest("friction that falls by Stribeck's curve beside a turning of the valve has its peaks among the extremes", &
             & test_spikes), &
-         new_unittest("a finger that jams on its ball is refused", test_jam) &
+         new_unittest("a finger that jams on its ball is refused", test_jam), &
+         new_unittest("what takes the steps of a train is told, and joints that reverse at once", test_fastest) &
          ]
    end subroutine collect_flexible_joints
 
@@ -188,5 +190,34 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_jam
+
+   subroutine test_fastest(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: keys(0:4) = [character(len=40) :: "dynamics.seat_stiffness_N_m", &
+         & "valve_tip.reversal_speed_m_s", "stem_seal.reversal_speed_m_s", "guide_side_load.reversal_speed_m_s", &
+         & "finger_pivot.reversal_speed_m_s"]
+      type(case_t) :: the_case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: text
+      integer :: i
+
+      do i = 0, 4
+         the_case = thesis_case()
+         call add_dynamics(the_case, 0, .false.)
+         the_case%dynamics%seat_stiffness = 1.0e3_wp*the_case%dynamics%seat_stiffness
+         if (i > 0) call add_joints(the_case, 4)
+         if (i == 1) the_case%valve_tip%sliding%reversal_speed = 1.0e-9_wp
+         if (i == 2) the_case%stem_seal%reversal_speed = 1.0e-9_wp
+         if (i == 3) the_case%guide_side_load%sliding%reversal_speed = 1.0e-9_wp
+         if (i == 4) the_case%finger_pivot%sliding%reversal_speed = 1.0e-9_wp
+         call new_model(model, the_case, 1, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         call find_fastest(model, text)
+         call check(error, index(text, trim(keys(i))) > 0, text)
+         if (allocated(error)) return
+      end do
+   end subroutine test_fastest
 
 end module test_flexible_joints

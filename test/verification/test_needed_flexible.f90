@@ -16,7 +16,7 @@ module test_needed_flexible
    use camroller_samples, only : sample_independent
    use camroller_study_table, only : study_table_t
    use change_tally, only : tally_t, start_tally, audit, compare, print_tally
-   use flexible_cases, only : add_dynamics
+   use flexible_cases, only : add_dynamics, add_joints
    use reference_cases, only : thesis_case, set_point
    use run_settings, only : has_checks, number_from
    implicit none
@@ -37,7 +37,7 @@ contains
       testsuite = [ &
          new_unittest("no change is larger than its estimate, for random flexible trains", test_flexible), &
          new_unittest("a flexible train is left out where it does not matter, and its parts", test_train), &
-         new_unittest("no estimate where a train parts, pumps up or has lash", test_wild_train) &
+         new_unittest("no estimate where a train parts, pumps up, has lash or friction that falls with speed", test_wild_train) &
          ]
    end subroutine collect_needed_flexible
 
@@ -189,7 +189,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: the_case, chosen
       type(choice_t) :: choice
-      character(len=*), parameter :: words(*) = [character(len=9) :: "lash on", "pumps up", "part"]
+      character(len=*), parameter :: words(*) = [character(len=9) :: "lash on", "pumps up", "part", "falls"]
       integer :: i
 
       do i = 1, size(words)
@@ -202,6 +202,9 @@ contains
             the_case%spring%base_circle_load = 300.0_wp
          case (3)
             call reference_train(2900.0_wp, .false., the_case)
+         case (4)
+            call reference_train(300.0_wp, .false., the_case)
+            call add_joints(the_case, 4)
          end select
          the_case%effects%negligible = 0.9_wp
          call decide(the_case, choice, chosen, error)
