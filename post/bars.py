@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 import numpy as np
 
 from layout import MOST_COLOURS, family, spread_colours, thin_out, wrapped
-from parts import MOST_PANELS, columns_for
+from parts import MOST_PANELS, columns_for, wrap_labels
 from quantities import SOURCES, mean_of, source_words
 from units import number
 
@@ -34,8 +34,7 @@ def slip_bars(figure, layout):
     """Mean slip, bars of several files side by side."""
     _slip(figure.subplots(), layout)
     if len(layout.files) > 1:
-        legend_below(figure, [Patch(facecolor=family(place, 3)[1], hatch=FILE_HATCHES[place % len(FILE_HATCHES)], linewidth=0.0,
-                                    label=layout.titles[number]) for place, number in enumerate(layout.files)])
+        legend_below(figure, file_handles(layout))
 
 
 def torque_bars(figure, layout):
@@ -97,6 +96,12 @@ def _torque(axes, layout, file, labelled):
     _numbers(axes, layout, bars, 0.84)
 
 
+def file_handles(layout):
+    """Legend of the bars of several files."""
+    return [Patch(facecolor=family(place, 3)[1], hatch=FILE_HATCHES[place % len(FILE_HATCHES)], linewidth=0.0, label=layout.titles[number])
+            for place, number in enumerate(layout.files)]
+
+
 def _source_handles(layout):
     return [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=source_words(layout, label))
             for _, label, tone, hatch in _sources(layout)]
@@ -109,6 +114,7 @@ def _sources(layout):
 
 def legend_below(figure, handles):
     """Legend below the bars."""
+    handles = wrap_labels(handles, figure.bbox.width / figure.dpi)
     figure.legend(handles=handles, loc="outside lower center", ncols=columns_for(figure, handles), frameon=False,
                   columnspacing=1.0, handlelength=1.5)
 

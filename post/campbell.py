@@ -13,6 +13,7 @@ where the file cannot be used.
 import argparse
 from pathlib import Path
 import sys
+import textwrap
 
 import matplotlib
 
@@ -29,6 +30,7 @@ from turns import turns_of  # noqa: E402
 
 SPEED = "operating_point.speed_rpm"
 SHOWN = 3  # decades of force
+TITLE = 80  # characters of a line above the figure
 RAYS = range(6, 31, 2)
 OUTLINE = [withStroke(linewidth=1.5, foreground="#404040")]  # of white words on bright places
 
@@ -74,7 +76,7 @@ def draw(result):
     draw_seating(below, result, order, speed)
     below.set_xlabel("speed of the camshaft [rev/min]")
     below.set_xlim(speed[0], speed[-1])
-    figure.suptitle(result.title)
+    figure.suptitle(textwrap.fill(result.title, TITLE))
     return figure
 
 

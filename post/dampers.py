@@ -32,9 +32,9 @@ def dampers_figure(layout, _whole_cycle=None):
     positive = [value for values in lost.values() for of_panel in values for value in of_panel if value > 0.0]
     least = max(0.5 * min(positive), SHOWN * top)
     cut = [f"energies below {number(least)} {UNIT} have no bar"] if min(positive) < least else []
-    lines, legend_columns = legend_handles(layout, layout.drawn(layout.shown_colours(), panels))
-    legend = [_as_bar(line) for line in lines], legend_columns
     size = 5.0 + 2.5 * len(panels), 1.6 + (0.13 * max(map(len, columns)) + 0.1) * len(lost)
+    lines, legend_columns = legend_handles(layout, layout.drawn(layout.shown_colours(), panels), size[0])
+    legend = [_as_bar(line) for line in lines], legend_columns
     figure = Figure(figsize=(size[0], size[1] + legend_height(legend, size[0])), layout="constrained")
     for place, (axes, panel, entries) in enumerate(zip(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels, columns)):
         width = ROOM / len(entries)

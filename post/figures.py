@@ -9,11 +9,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 import numpy as np
 
-from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
+from bars import MOST_BARS, both_bars, file_handles, shown_in_bars, slip_bars, torque_bars
 from dampers import dampers_figure
 from layout import line_style, wrapped
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
-                   legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
+                   legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis, wrap_labels)
 from quantities import (CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, source_words,
                         values_of)
 from roller import roller_figure
@@ -22,6 +22,7 @@ from turns import turns_figure
 from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
+BARS_WIDTH = 7.5  # of a bar chart as a figure of its own [inch]
 TITLE = 40  # characters of a panel's title
 
 
@@ -39,7 +40,8 @@ def curve_figure(curve, layout, whole_cycle):
     columns = min(len(panels), 3)
     rows = -(-len(panels) // columns)
     shown = layout.shown_colours(), panels, [curve.series]
-    legend, width = legend_handles(layout, layout.drawn(*shown)), 7.0 if columns == 1 else 2.0 + 3.2 * columns
+    width = 7.0 if columns == 1 else 2.0 + 3.2 * columns
+    legend = legend_handles(layout, layout.drawn(*shown), width)
     figure = Figure(figsize=(width, 1.6 + 2.9 * rows + legend_height(legend, width)), layout="constrained")
     grid = figure.subplots(rows, columns, squeeze=False)
     whole = curve.whole_cycle if whole_cycle is None else whole_cycle
@@ -81,7 +83,9 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
     places = [(colour, panel) for colour in colours for panel in panels]
     columns = min(3, len(places)) if layout.is_list else len(panels)
     rows = -(-len(places) // columns)
-    figure = Figure(figsize=(7.0 if columns == 1 else 2.0 + 3.2 * columns, 1.6 + 2.4 * rows), layout="constrained")
+    width = 7.0 if columns == 1 else 2.0 + 3.2 * columns
+    legend = _torque_legend(layout, parts, layout.drawn(*shown), width)
+    figure = Figure(figsize=(width, 1.6 + 2.4 * rows + legend_height(legend, width)), layout="constrained")
     grid = list(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)
     window = (0.0, 360.0) if whole_cycle else event_window(layout, [name for name, *_ in parts])
     limits = []
@@ -105,17 +109,17 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
                         (min(pair[0] for pair in known), max(pair[1] for pair in known)) if known else None)
     for axes in grid[len(places):]:
         axes.remove()
-    head(figure, layout, title, _torque_legend(layout, parts, layout.drawn(*shown)), layout.shown_words(*shown))
+    head(figure, layout, title, legend, layout.shown_words(*shown))
     return figure
 
 
-def _torque_legend(layout, parts, drawn):
-    """The parts, in the colours of each file that is drawn and has them."""
+def _torque_legend(layout, parts, drawn, width):
+    """The parts, in the colours of each file that is drawn and has them, in a figure of some width [inch]."""
     there = {number: layout.results[number].series for number in layout.files if number in {entry.file for entry in drawn}}
     entries = {number: [Line2D([], [], color=tones[place % len(tones)], linestyle=dash if len(layout.files) == 1 else line_style(place),
-                               linewidth=width, label=source_words(layout, label)) for name, label, tones, dash, width in parts if name in there[number]]
+                               linewidth=broad, label=source_words(layout, label)) for name, label, tones, dash, broad in parts if name in there[number]]
                for place, number in enumerate(layout.files) if number in there}
-    return (next(iter(entries.values()), []), None) if len(layout.files) == 1 else file_legend(layout, entries)
+    return (next(iter(entries.values()), []), None) if len(layout.files) == 1 else file_legend(layout, entries, width)
 
 
 def _torque_curve(axes, layout, entry, part, window, unit):
@@ -143,7 +147,8 @@ def overview_figure(layout, wanted, parts, needed=()):
     columns = len(panels) if len(panels) > 1 else 2
     rows = len(curves) if len(panels) > 1 else -(-len(curves) // columns)
     shown = layout.shown_colours(), panels, [curve.series for curve in curves]
-    legend, width = legend_handles(layout, layout.drawn(*shown)), 2.0 + 3.2 * columns
+    width = 2.0 + 3.2 * columns
+    legend = legend_handles(layout, layout.drawn(*shown), width)
     heights = [1.5 + 1.5 * rows + legend_height(legend, width), lying_height(layout) or 2.6 + 0.8 * len(layout.files)]
     figure = Figure(figsize=(width, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
@@ -209,7 +214,10 @@ def bars_figure(part, title, layout):
         raise Missing("no means of it in the file" + ("s" if len(layout.files) > 1 else ""))
     layout.refuse_too_many(MOST_BARS)
     rows = len(layout.files) if part is torque_bars else 1
-    figure = Figure(figsize=(7.5, 0.6 + lying_height(layout) if layout.is_list else 2.6 + 1.9 * rows), layout="constrained")
+    height = 0.6 + lying_height(layout) if layout.is_list else 2.6 + 1.9 * rows
+    if part is slip_bars and len(layout.files) > 1:
+        height += legend_height((wrap_labels(file_handles(layout), BARS_WIDTH), None), BARS_WIDTH)
+    figure = Figure(figsize=(BARS_WIDTH, height), layout="constrained")
     part(figure, layout)
     head(figure, layout, title, ([], None), _left_out_of_bars(layout))
     return figure

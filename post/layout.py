@@ -24,6 +24,8 @@ MOST_COLOURS = 7
 MOST_LISTED = 12  # cases of a list in a figure of curves
 SPEED = "operating_point.speed_rpm"  # of the shaft that `engine.given_speed` names, where there is an engine
 TAKEN = {"largest": np.max, "smallest": np.min, "mean": np.mean}  # of the values of several cases that count as one
+POINT = (SPEED, "operating_point.oil_temperature_degC")
+LONGEST_TITLE = 100  # characters of a file's title beside those of others
 LIST = "case"  # stands for the swept keys where each case has a label of its own
 
 
@@ -47,8 +49,9 @@ class Layout:
             add_derived(result)
         keys = list(dict.fromkeys(key for result in results for key in result.sweep))
         self.colour_key, self.panel_keys = (keys[0], keys[1:]) if keys else (None, [])
-        self.units = {key: _unit(key, results) for key in keys}
-        self.short_names = _short_names(keys, results)
+        points = _differing_points(results, keys)
+        self.units = {key: _unit(key, results) for key in (*keys, *points)}
+        self.short_names = _short_names([*keys, *points], results)
         self.entries = []
         self.failed = [{case for case, _ in result.failed_cases()} for result in results]
         self.chosen = [chosen_cases(result, selections) for result in results]
@@ -62,12 +65,28 @@ class Layout:
         self.colours = _in_order(entry.colour for entry in self.entries)
         self.panels = _in_order(entry.panel for entry in self.entries)
         self._texts = {key: _texts({_plain(result, key, case) for result in results for case in range(result.cases)})
-                       for key in keys}
+                       for key in (*keys, *points)}
         self.listed_keys = []
         if not self._is_grid():
             self._become_list(keys)
         self.files = sorted({entry.file for entry in self.entries})
-        self.titles = _titles(results)
+        self.titles = self._titles(points)
+
+    def _titles(self, points):
+        """Title of each file and these values of its operating point; the file's name goes with it where titles repeat."""
+        if len(self.results) == 1:
+            return [self.results[0].title]
+        titles = [_shortened(result.title) for result in self.results]
+        named = [title if titles.count(title) == 1 else f"{title} ({result.path.name})" for title, result in zip(titles, self.results)]
+        return [", ".join([words, *(self.name(key, _plain(result, key, 0)) for key in points)])
+                for words, result in zip(named, self.results)]
+
+    def entry_words(self, entry):
+        """What tells a case from the others: title of its file, value of the first key, those of the panel."""
+        words = [self.titles[entry.file] if len(self.files) > 1 else "",
+                 self.name(self.colour_key, entry.colour) if len(self.colours) > 1 else "",
+                 self.panel_name(entry.panel) if len(self.panels) > 1 else ""]
+        return ", ".join(filter(None, words))
 
     def _leave_out_cases_without_series(self):
         """Cases whose series a sweep has not kept go, where it has kept those of others; returns a line for each such file."""
@@ -390,11 +409,14 @@ def _in_order(values):
     return sorted(distinct, key=rank)
 
 
-def _titles(results):
-    """Title of each file; the file's name goes with it where titles repeat."""
-    titles = [result.title for result in results]
-    return [title if titles.count(title) == 1 else f"{title} ({result.path.name})"
-            for title, result in zip(titles, results)]
+def _shortened(title):
+    """A title that leaves room for others."""
+    return title if len(title) <= LONGEST_TITLE else title[:LONGEST_TITLE - 1].rstrip() + "\N{HORIZONTAL ELLIPSIS}"
+
+
+def _differing_points(results, swept):
+    """Keys of the operating point in which files differ while none varies them."""
+    return [key for key in POINT if key not in swept and len({_plain(result, key, 0) for result in results}) > 1]
 
 
 def _texts(values):

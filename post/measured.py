@@ -5,7 +5,7 @@ A table has one heading with units in brackets, as `cam angle [deg], torque [N m
 `engine.full_lift_deg` does. Angles, in degrees or radians, are compared with the drive torque over one turn of the camshaft, or
 with the friction torque where the column is called so; operating points with the mean friction torque of the one chosen case that has the same
 speed and temperature, which is the mean of the drive torque as well. Differences are measured less computed. Columns that are not
-compared are refused: a speed beside an angle chooses no case.
+compared are refused: a speed beside an angle chooses no case. Commas, semicolons or white space part the columns.
 """
 
 from dataclasses import dataclass
@@ -27,6 +27,7 @@ KEYS = {"speed": "operating_point.speed_rpm", "temperature": "operating_point.oi
 TONES = ["#08306b", "#7cc0ea", "#d55e00", "#1b7837", "#54278f", "0.4"]  # of temperatures
 TITLE = 90  # characters of a line above a figure
 SAME = 1e-6  # relative difference of two operating points that are one
+AFTER_UNIT = re.compile(r'(?<=\])"?\s+')  # parts a heading without commas
 HEADING = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")
 
 
@@ -81,7 +82,7 @@ def read_table(path):
     heading = lines[0][1]
     parts = ";" if ";" in heading else ","
     names, units = [], {}
-    for cell in heading.split(parts):
+    for cell in heading.split(parts) if parts in heading else AFTER_UNIT.split(heading.strip()):
         found = HEADING.match(cell.strip('" '))
         if not found:
             raise ResultError(f"{path}: a heading is a name with its unit, as 'torque [N m]', not '{cell.strip()}'")
@@ -92,7 +93,7 @@ def read_table(path):
     rows = []
     for place, line in lines[1:]:
         try:
-            rows.append([float(cell) for cell in line.split(parts)])
+            rows.append([float(cell) for cell in line.split(parts if parts in line else None)])
         except ValueError:
             raise ResultError(f"{path}: line {place} is not of numbers: {line.strip()}") from None
         if len(rows[-1]) != len(names):

@@ -12,6 +12,9 @@ NOSE = 180.0  # cam angle of full lift [deg]
 MARGIN = 30.0  # shown on each side of the event [deg]
 MOST_PANELS = 9
 LEGEND_ROW = 0.17  # height [inch]
+CHARACTERS = 11.0  # of a legend in an inch
+SAMPLE = 7.0  # characters that have room in the place of a line sample and the distance to the next column
+LEAST_TITLE = 24  # characters of a line of a file's title above its entries
 BUSY = 0.2  # part of a torque's range that is reached outside of the first cam's event where other cams are at work there
 ALIKE = 10.0  # panels whose largest values differ by more than this have axes of their own
 
@@ -156,25 +159,48 @@ def linear_axis(axes, low, high):
         axes.axhline(0.0, color="0.6", linewidth=0.7, zorder=0)
 
 
-def legend_handles(layout, drawn):
-    """Legend of the cases that are drawn, entries and columns: colours by swept value, families of colours and line styles by file."""
+def legend_handles(layout, drawn, width):
+    """Legend of the cases that are drawn in a figure of some width [inch], entries and columns: colours by swept value, families of
+    colours and line styles by file."""
     if layout.colour_key is None or (len(layout.files) > 1 and len(layout.shown_colours()) == 1):
         first = {entry.file: entry for entry in reversed(drawn)}
-        return [Line2D([], [], label=layout.titles[number], **layout.style(first[number])) for number in sorted(first)], None
+        handles = [Line2D([], [], label=layout.titles[number], **layout.style(first[number])) for number in sorted(first)]
+        return wrap_labels(handles, width), None
     first = {(entry.file, entry.colour): entry for entry in reversed(drawn)}
     entries = {number: [Line2D([], [], label=layout.name(layout.colour_key, value), **layout.style(first[number, value]))
                         for value in layout.colours_of(number) if (number, value) in first] for number in layout.files}
     if len(layout.files) == 1:
-        return entries[layout.files[0]] if len(layout.colours) > 1 else [], None
-    return file_legend(layout, {number: own for number, own in entries.items() if own})
+        return wrap_labels(entries[layout.files[0]], width) if len(layout.colours) > 1 else [], None
+    return file_legend(layout, {number: own for number, own in entries.items() if own}, width)
 
 
-def file_legend(layout, entries):
-    """Legend of several files: a column for each, its title on top of its entries."""
-    most = max(map(len, entries.values()), default=0)
-    handles = [handle for number, own in entries.items()
-               for handle in (_words(layout.titles[number]), *own, *[_words("")] * (most - len(own)))]
-    return handles, len(entries)
+def file_legend(layout, entries, width):
+    """Legend of several files: the title of each on top of its entries, as many side by side as fit into a figure of some width [inch]."""
+    if not entries:
+        return [], None
+    longest = max(_longest_line(handles) for handles in entries.values())
+    least = max(longest, min(LEAST_TITLE, max(len(layout.titles[number]) for number in entries)))
+    rows = -(-len(entries) // _columns(len(entries), least, width))
+    columns = -(-len(entries) // rows)
+    titles = {number: in_lines(layout.titles[number], width / columns) for number in entries}
+    lines, most = max(title.count("\n") for title in titles.values()), max(map(len, entries.values()))
+    blocks = [[_words(titles[number] + "\n" * (lines - titles[number].count("\n"))), *wrap_labels(own, width / columns),
+               *[_words("")] * (most - len(own))]
+              for number, own in entries.items()]
+    blocks += [[_words("\n" * lines), *[_words("")] * most]] * (rows * columns - len(blocks))
+    return [handle for column in range(columns) for block in blocks[column::columns] for handle in block], columns
+
+
+def in_lines(text, width):
+    """A label of a legend, or of a column of one, in lines that fit into some width [inch]."""
+    return textwrap.fill(text, max(1, int(CHARACTERS * width - SAMPLE)))
+
+
+def wrap_labels(handles, width):
+    """The handles of a legend, their labels in lines that fit into a figure of some width [inch]."""
+    for handle in handles:
+        handle.set_label(in_lines(handle.get_label(), width))
+    return handles
 
 
 def head(figure, layout, title, legend, left_out):
@@ -213,9 +239,10 @@ def several_cams(layout):
 
 
 def legend_height(legend, width):
-    """Height of the rows of a legend after the first, in a figure of some width [inch]."""
+    """Height of the lines of a legend after the first, in a figure of some width [inch]."""
     handles, columns = legend
-    return LEGEND_ROW * max(0, -(-len(handles) // (columns or columns_that_fit(handles, width))) - 1)
+    lines = [1 + handle.get_label().count("\n") for handle in handles]
+    return LEGEND_ROW * max(0, *(int(part.sum()) - 1 for part in np.array_split(lines, columns or columns_that_fit(handles, width))))
 
 
 def columns_for(figure, handles):
@@ -225,5 +252,14 @@ def columns_for(figure, handles):
 
 def columns_that_fit(handles, width):
     """Columns of a legend in a figure of some width [inch]."""
-    longest = max([len(handle.get_label()) for handle in handles] + [1])
-    return int(max(1, min(len(handles), 11.0 * width / (longest + 7.0))))
+    return _columns(len(handles), _longest_line(handles), width)
+
+
+def _columns(count, longest, width):
+    """Columns of a legend with so many entries or blocks, whose longest line has so many characters, in a figure of some width [inch]."""
+    return int(max(1, min(count, CHARACTERS * width / (longest + SAMPLE))))
+
+
+def _longest_line(handles):
+    """Characters of the longest line of the labels."""
+    return max([len(line) for handle in handles for line in handle.get_label().split("\n")] + [1])

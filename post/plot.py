@@ -9,9 +9,9 @@
 Needs no display. Colours distinguish the values of the first swept key, panels those of the others;
 cases that are no grid (lists side by side, tables, samples) have a label each, and have to be chosen
 where they are too many. Families of colours and line styles distinguish files, which are named by the titles
-that their decks give. A figure whose quantities are not in the files (the effect is not in the case)
-is left out and a line says so. A file of a sweep without series has no curves over the cam angle,
-but bar charts of its means and what happens over hours or turns;
+that their decks give, with speed and oil temperature where these differ and no file sweeps them.
+A figure whose quantities are not in the files (the effect is not in the case) is left out and a line says so.
+A file of a sweep without series has no curves over the cam angle, but bar charts of its means and what happens over hours or turns;
 plot_sweep.py draws how any summary answers to what the sweep varies. Exit code 0 if something was
 drawn, 2 if a file or an option cannot be used.
 """
@@ -108,9 +108,10 @@ def parser():
                            "as in speed_rpm=300:600; given more than once, a case must fit all")
     made.add_argument("--measured", metavar="TABLE.csv",
                       help="measured values with a heading as 'cam angle [deg], torque [N m]', 'crank angle [deg], torque [N m]' or "
-                           "'speed [rpm], temperature [degC], mean torque [N mm]', crank angles from the firing dead centre of cylinder 1: drawn with "
-                           "the first file, over an angle with its first chosen case that has series, operating points with the one "
-                           "chosen case at each; prints bias, root mean square and the worst point of measured less computed")
+                           "'speed [rpm], temperature [degC], mean torque [N mm]', columns parted by commas, semicolons or white "
+                           "space, crank angles from the firing dead centre of cylinder 1: drawn with the first file, over an "
+                           "angle with its first chosen case that has series, operating points with the one chosen case at each; prints "
+                           "bias, root mean square and the worst point of measured less computed")
     made.add_argument("--dpi", type=DPI, default=130, help="pixels per inch of a PNG (default: 130)")
     made.add_argument("--angles", choices=["event", "cycle"],
                       help="cam angles of the single figures: around the valve event or the whole cycle "

@@ -4,12 +4,14 @@
     python post/plot_study.py FILE --output doc/figures --name thesis
 
 `<name>_work_precision.png`: error against time and, where they are counted, against evaluations; one curve for each way to compute
-the cases, geometric means over the cases. Needs no display. Exit code 2 where the file is no study.
+the cases, geometric means over the cases; how many cases have no result, and how many settings are not shown since a case has none at
+them. Needs no display. Exit code 2 where the file is no study.
 """
 
 import argparse
 from pathlib import Path
 import sys
+import textwrap
 
 import matplotlib
 
@@ -24,6 +26,7 @@ from command import run, save_figure  # noqa: E402
 from read import ResultError, opened, text_columns  # noqa: E402
 
 COLOURS = ["#111111", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6a51a3"]
+CHARACTERS = 11.0  # of the title in an inch
 MARKERS = "os^vD<h>"
 ERRORS = {"error_sliding_speed": "error of the sliding speed [-]", "error_mean_friction": "error of the mean friction torque [-]"}
 
@@ -37,17 +40,31 @@ def read_study(path):
 def curves(table, error):
     """For each way: geometric means over all cases of error, time and evaluations, for the settings at which no case failed."""
     found = {}
+    for way, rows in settings(table):
+        if (table["status"][rows] == 0).all():
+            found.setdefault(way, []).append(tuple(_mean(table[name][rows]) for name in (error, "time", "evaluations")))
+    return {way: np.array(points) for way, points in found.items()}
+
+
+def settings(table):
+    """Each setting: its way, and its rows, one for each case."""
     ways = [way for way in dict.fromkeys(zip(table["way"], table["dial"])) if way[1] != "reference"]
-    for way in ways:
-        of_way = (table["way"] == way[0]) & (table["dial"] == way[1])
-        points = []
+    for way, dial in ways:
+        of_way = (table["way"] == way) & (table["dial"] == dial)
         for value in _different(table["setting"][of_way]):
-            rows = of_way & ((table["setting"] == value) | (np.isnan(table["setting"]) & np.isnan(value)))
-            if (table["status"][rows] == 0).all():
-                points.append(tuple(_mean(table[name][rows]) for name in (error, "time", "evaluations")))
-        if points:
-            found[way[0]] = np.array(points)
-    return found
+            yield way, of_way & ((table["setting"] == value) | (np.isnan(table["setting"]) & np.isnan(value)))
+
+
+def left_out(table):
+    """How many cases have no result at all, and how many settings are not shown since a case has none at them: parts of a sentence."""
+    cases, there = np.unique(table["case"]), np.unique(table["case"][table["status"] == 0])
+    lost = cases.size - there.size
+    words = [f"{lost} of {cases.size} cases {'has' if lost == 1 else 'have'} no result"] if lost else []
+    all_ways = [way for way, _ in settings(table)]
+    gone = [way for way, rows in settings(table) if (table["status"][rows] != 0).any()]
+    if gone:
+        words.append(f"{len(gone)} of {len(all_ways)} settings not shown, at which a case has no result ({', '.join(dict.fromkeys(gone))})")
+    return words
 
 
 def _different(values):
@@ -77,7 +94,8 @@ def work_precision(table):
         axes.grid(True, which="major", linewidth=0.3)
     grid[-1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     cases = len(np.unique(table["case"][table["status"] == 0]))
-    figure.suptitle("one case" if cases == 1 else f"geometric means over {cases} cases", fontsize="medium")
+    words = ["one case" if cases == 1 else f"geometric means over {cases} cases", *left_out(table)]
+    figure.suptitle(textwrap.fill(", ".join(words), int(CHARACTERS * figure.get_figwidth())), fontsize="medium")
     return figure
 
 

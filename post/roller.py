@@ -1,6 +1,7 @@
 """Load per length along the roller at some cam angles, from the series of its slices (`slice_series = .true.` in &roller_profile)."""
 
 import re
+import textwrap
 
 from matplotlib.figure import Figure
 import numpy as np
@@ -10,6 +11,7 @@ from parts import MOST_PANELS, event_window, head
 from quantities import Missing, values_of
 
 SLICE = re.compile(r"line_load_(\d+)$")
+TITLE = 42  # characters of a line of a panel's title
 MOST_ANGLES = 5  # in a panel: the base circle, then those of the event from the first to the last
 
 
@@ -53,9 +55,7 @@ def roller_figure(layout, _whole_cycle=None):
         angle = layout.results[entry.file].cam_angle
         for place, at in enumerate(chosen_angles(layout, entry, loads.sum(axis=0))):
             axes.plot(places, loads[:, at], linestyle=line_style(place), label=f"{angle[at]:g}°")
-        names = [layout.name(layout.colour_key, entry.colour) if len(layout.colours) > 1 else "",
-                 layout.panel_name(entry.panel) if len(layout.panels) > 1 else ""]
-        axes.set_title(", ".join(filter(None, names)), fontsize="medium")
+        axes.set_title(textwrap.fill(layout.entry_words(entry), TITLE), fontsize="medium")
         axes.set_ylim(bottom=0.0)
         axes.legend(title="cam angle", fontsize="x-small", title_fontsize="x-small", handlelength=3.0)
         if number % columns == 0:

@@ -3,12 +3,12 @@
 
 Usage: post/table.py FILE [--columns NAME,NAME,...] [--cases WHICH]... [--over KEY,... [--take WHAT]] [--rows N | --all]
 
-Columns are swept keys first, then scalars of the summary: by default mean friction torque of each source, mean slip ratio, peak
-pressure and smallest film, these three of the worst lobe shape where a case has several. The peak pressure is the largest along the
-roller where the deck gives its profile, else that of Hertz. Units stand in the headings and suit the values, rotational speeds are in
-rev/min; three significant figures, whole numbers in full. With `--over` the cases that differ in these keys only, as speeds of one design, make one
-row, with the largest, smallest or mean value of each column, or its range. Cases that are no grid, and chosen ones, have their number
-in the first column. Exit code 2 where the file or a name cannot be used.
+Columns are speed and oil temperature where these are not swept, swept keys, and scalars of the summary: by default mean friction torque of
+each source, mean slip ratio, peak pressure and smallest film, these three of the worst lobe shape where a case has several. The peak
+pressure is the largest along the roller where the deck gives its profile, else that of Hertz. Units stand in the headings and suit the
+values, rotational speeds are in rev/min; three significant figures, whole numbers in full. With `--over` the cases that differ in these
+keys only, as speeds of one design, make one row, with the largest, smallest or mean value of each column, or its range. Cases that are no
+grid, and chosen ones, have their number in the first column. Exit code 2 where the file or a name cannot be used.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import sys
 import numpy as np
 
 from command import run, whole_number
-from layout import TAKEN, chosen_cases, groups_over, lost_contact, lost_contact_words, not_computed, not_computed_words, some_numbers
+from layout import POINT, TAKEN, chosen_cases, groups_over, lost_contact, lost_contact_words, not_computed, not_computed_words, some_numbers
 from read import ResultError, read_result
 from units import distinct_texts, factor, fitting_unit, number, with_unit
 
@@ -124,10 +124,11 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
         raise ResultError('no case is left: see --cases')
     gone, groups = groups_over(result, cases, over)
     shown = groups[:rows]
-    last = [key.split('.')[-1] for key in result.sweep]
+    keys = [*(key for key in POINT if key not in result.sweep and result.value_of(key, 0) is not None), *result.sweep]
+    last = [key.split('.')[-1] for key in keys]
     made = [['case', *(str(group[0]) for group in shown)]] if not over and (selections or not result.is_grid()) else []
     made += [[name if last.count(name) == 1 else key, *swept_texts(result, key, [group[0] for group in shown])]
-             for key, name in zip(result.sweep, last) if key not in gone]
+             for key, name in zip(keys, last) if key not in gone]
     if over:
         made.append(['cases', *(str(len(group)) for group in shown)])
         chosen = [(name, f'{take} {heading or name}', unit) for name, heading, unit in chosen]

@@ -49,6 +49,16 @@ def test_frequencies_are_those_of_a_clamped_spring(tmp_path):
     assert campbell.mode_frequencies(result) == pytest.approx([416.666667, 833.333333, 1250.0], rel=1e-8)
 
 
+def test_a_long_title_stays_within_the_figure(tmp_path):
+    path = write_sweep(tmp_path / "a.h5", [1e-5])
+    with h5py.File(path, "a") as file:
+        file["deck/values/case.title"][()] = "A title of many words " * 23
+    figure = campbell.draw(read_result(path))
+    figure.draw_without_rendering()
+    box = figure._suptitle.get_window_extent()  # pylint: disable=protected-access
+    assert box.x0 >= 0.0 and box.x1 <= figure.bbox.x1
+
+
 def test_map_is_brightest_where_the_harmonic_is(tmp_path):
     result = read_result(write_sweep(tmp_path / "a.h5", [1e-5]))
     figure = campbell.draw(result)

@@ -1,7 +1,9 @@
 """Any set of cases is drawn, each with a label of its own, or a choice is asked for: grids, lists, samples, files of sweeps."""
 
 import h5py
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 import numpy as np
 import pytest
 
@@ -304,6 +306,58 @@ def test_the_legend_of_two_files_names_every_curve(tmp_path):
     figure = draw("film", Layout(two_files(tmp_path)))
     values = ["300 rev/min", "600 rev/min", "900 rev/min"]
     assert legend(figure) == ["a", *values, "b", *values]
+
+
+LONG = "rig of the second campaign with new followers, oil of the third delivery, roller of 8.5 mm with the profile of its supplier, "
+
+
+ONE = {"swept": (), "speeds": (300.0,), "oils": (60.0,)}
+GROUPED = [name for name in FIGURES if name not in CURVES or name == "slip"]  # a curve is drawn as the others are
+
+
+@pytest.mark.parametrize("count, points", [(2, ONE), (5, ONE), (3, {"speeds": (300.0, 900.0), "oils": (25.0, 95.0)})],
+                         ids=["two", "five", "grids"])
+@pytest.mark.parametrize("name", GROUPED)
+def test_long_titles_of_files_stay_within_the_figure(tmp_path, name, count, points):
+    """Titles of 510 characters, of words and without blanks, that begin alike, and one of 60: every file is named, nothing is cut off."""
+    titles = [f"{4 * LONG}, at last"[:510], f"{4 * LONG}, at first"[:510], LONG[:60], "x_" * 255, "y_" * 255][:count]
+    results = [read_result(write_result(tmp_path / f"rig_{number}.h5", title=title, step=15.0, **points))
+               for number, title in enumerate(titles)]
+    layout = Layout(results, ("speed_rpm=300",) if name in ("turns", "running_in", "roller") else ())
+    figure = draw(name, layout)
+    figure.draw_without_rendering()
+    pages = (figure, *figure.subfigs, *(part for page in figure.subfigs for part in page.subfigs))
+    shown = [made for page in pages for made in page.legends] + [axes.title for axes in figure.findobj(Axes)]
+    for box in [made.get_window_extent() for made in shown]:
+        assert box.x0 >= figure.bbox.x0 - 1.0 and box.x1 <= figure.bbox.x1 + 1.0 and box.y1 <= figure.bbox.y1 + 1.0
+    words = " ".join(text.get_text() for made in shown for text in made.findobj(Text)).replace("\n", " ")
+    assert all(f"(rig_{number}.h5)" in words for number in range(2)) and (count < 3 or LONG[:60] in words)
+
+
+@pytest.mark.parametrize("name", GROUPED)
+def test_files_at_different_operating_points_say_them(tmp_path, name):
+    """Where no file sweeps speed or temperature; what is the same in all files is not said."""
+    results = [read_result(write_result(tmp_path / f"{title}.h5", title=title, speeds=(speed,), oils=(60.0,), swept=(), step=15.0))
+               for title, speed in (("a", 300.0), ("b", 2500.0))]
+    assert Layout(results).titles == ["a, 300 rev/min", "b, 2500 rev/min"] and Layout(results[:1]).titles == ["a"]
+    figure = draw(name, Layout(results))
+    words = " ".join(text.get_text() for text in figure.findobj(Text))
+    assert "a, 300 rev/min" in words and "b, 2500 rev/min" in words and "60 °C" not in words
+
+
+def test_sweeps_at_different_temperatures_say_them(tmp_path):
+    results = [read_result(write_result(tmp_path / f"{oil}.h5", oils=(oil,), swept=(SPEED,), step=15.0)) for oil in (60.0, 95.0)]
+    assert legend(draw("slip", Layout(results)))[::4] == ["made up (60.0.h5), 60 °C", "made up (95.0.h5), 95 °C"]
+    results.append(read_result(write_result(tmp_path / "all.h5", title="all", step=15.0)))
+    assert Layout(results).titles == ["made up (60.0.h5)", "made up (95.0.h5)", "all"]
+
+
+def test_files_that_do_not_fit_beside_each_other_stand_below_each_other(tmp_path):
+    results = [read_result(write_result(tmp_path / f"{title}.h5", title=title, step=15.0, **ONE)) for title in "abc"]
+    [shown] = draw("drive_torque", Layout(results)).legends
+    parts = ["geometric", "friction", "drive: all together"]
+    # column by column: the first and the third file, the second one
+    assert [text.get_text() for text in shown.get_texts()] == ["a", *parts, "c", *parts, "b", *parts, *[""] * 4]
 
 
 @pytest.mark.parametrize("name", ["slip", "drive_torque", "overview", "dampers"])

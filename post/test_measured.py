@@ -69,6 +69,18 @@ def test_angles_in_radians_and_a_mark_of_byte_order_change_nothing(nine, tmp_pat
     assert ": 1 point, bias" in words and "at cam angle 180.0 deg" in words
 
 
+@pytest.mark.parametrize("heading, row", [
+    ("cam angle [deg]\ttorque [N m]", "180\t1.5"), ("cam angle [deg], torque [N m]", "180\t1.5"),
+    ("cam angle [deg]\ttorque [N m]", "180, 1.5"), ("cam angle [deg]  torque [N m]", "  180   1.5 "),
+    ('"cam angle [deg]"\t"torque [N m]"', "180 \t 1.5"), ("cam angle [deg]; torque [N m]", "180;1.5"),
+])
+def test_columns_are_parted_by_commas_or_white_space(tmp_path, heading, row):
+    (tmp_path / "rig.csv").write_text(f"{heading}\n{row}\n", encoding="utf-8")
+    table = read_table(tmp_path / "rig.csv")
+    assert {name: list(values) for name, values in table.columns.items()} == {"cam angle": [180.0], "torque": [1.5]}
+    assert table.units == {"cam angle": "deg", "torque": "N m"}
+
+
 def test_crank_angle_goes_by_the_engine(nine, tmp_path):
     table = write_table(tmp_path / "rig.csv", "crank angle [deg], torque [N m]", [(470.0, 0.0), (110.0, 0.0)])
     with pytest.raises(ResultError, match="crank angles need the group &engine"):
@@ -143,6 +155,9 @@ def test_operating_points_have_a_line_for_each_combination_of_other_keys(two_law
     ("cam angle [deg], torque [N m]\n1, x\n", "line 2 is not of numbers"),
     ("# a rig\n\ncam angle [deg], torque [N m]\n# first\n1, 2\n3, x\n", "line 6 is not of numbers"),
     ("cam angle [deg], torque [N m]\n1, 2\n3, nan\n", "rig.csv: line 3: only finite numbers are allowed, not 3, nan"),
+    ("cam angle [deg]\ttorque [N m]\n180\t1,5\n", "line 2 is not of numbers"),
+    ("cam angle [deg]\ttorque\n180\t1.5\n", "a heading is a name with its unit"),
+    ("cam angle [deg]\ttorque [N m]\n180\t\n", "line 2 has 1 of 2 columns"),
     ("cam angle [turns], torque [N m]\n1, 2\n", "the unit of 'cam angle' has to be deg, degree, degrees, ° or rad, not turns"),
     ("cam angle [deg], torque [N m]\n1\n", "line 2 has 1 of 2 columns"),
     ("cam angle [deg], torque [kg]\n1, 2\n", "has to be N m or N mm"),

@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 
-from plot_study import curves, main, read_study, work_precision
+from plot_study import curves, left_out, main, read_study, work_precision
 
 NAN = np.nan
 
@@ -39,7 +39,22 @@ def test_a_figure_with_a_curve_for_each_way_in_each_panel(path, tmp_path):
     assert [file.name for file in (tmp_path / "figures").iterdir()] == ["x_work_precision.png"]
     figure = work_precision(read_study(path))
     assert [[line.get_label() for line in axes.lines] for axes in figure.axes] == 3 * [["rodas5p", "euler"]]
-    assert figure.get_suptitle() == "geometric means over 2 cases"
+    assert figure.get_suptitle().replace("\n", " ") == ("geometric means over 2 cases, 1 of 4 settings not shown, at which a case has no "
+                                                        "result (euler)")
+
+
+def test_cases_and_settings_without_a_result_are_counted(path):
+    """Of a case without a reference a study writes that row alone."""
+    table = read_study(path)
+    table["status"][9] = 0
+    assert left_out(table) == [] and work_precision(table).get_suptitle() == "geometric means over 2 cases"
+    lost = {name: np.concatenate([values, values[[0, 0]]]) for name, values in table.items()}
+    lost["case"][-2:], lost["status"][-2:] = (2, 3), 4
+    assert left_out(lost) == ["2 of 4 cases have no result"]
+    lost["status"][[2, 7, 9]] = 5  # a setting in both cases, and one of another way in one
+    assert left_out(lost)[1] == "2 of 4 settings not shown, at which a case has no result (rodas5p, euler)"
+    words = ", ".join(["geometric means over 2 cases", *left_out(lost)])
+    assert work_precision(lost).get_suptitle().replace("\n", " ") == words
 
 
 def test_films_without_evaluations_have_no_panel_of_them(path):

@@ -67,6 +67,18 @@ def test_the_table_of_a_grid_has_the_units_of_its_headings(tmp_path):
     assert float(first[head.index("contact [N mm]")]) == pytest.approx(1e3 * torque, rel=5.01e-3)
 
 
+def test_a_single_operating_point_is_in_the_table(tmp_path):
+    path = write_result(tmp_path / "one.h5", speeds=(2500.0,), oils=(60.0,), swept=(), step=30.0)
+    head, first = rows(table_of(read_result(path)))
+    assert head[:3] == ["speed_rpm", "oil_temperature_degC", "contact [N mm]"] and first[:2] == ["2500", "60"]
+    path = write_result(tmp_path / "oils.h5", oils=(62.5,), swept=(SPEED,), step=30.0)
+    head, *body = rows(table_of(read_result(path)))
+    assert head[:3] == ["oil_temperature_degC", "speed_rpm", "contact [N mm]"]
+    assert [row[:2] for row in body] == [["62.5", "300"], ["62.5", "600"], ["62.5", "900"]]
+    head, first = rows(table_of(read_result(path), ["mean_slip_ratio"], over=["speed_rpm"], take="largest"))
+    assert head == ["oil_temperature_degC", "cases", "largest mean_slip_ratio [%]"] and first[:2] == ["62.5", "3"]
+
+
 def test_failed_cases_have_dashes_and_a_reason(grid, capsys):
     with h5py.File(grid, "a") as file:
         file["summary/status"][2] = 3

@@ -3,10 +3,11 @@
 from matplotlib.figure import Figure
 import numpy as np
 
-from parts import head
+from parts import head, legend_height, wrap_labels
 from quantities import Missing
 from units import unit_words
 
+WIDTH, HEIGHT = 9.0, 7.6  # of the figure without the lines of its legend after the first [inch]
 LIFT, SPEED = "valve_lift_at_nose", "valve_velocity_at_nose"
 # Title, unit, factor from the file's unit, name of the measure
 PANELS = (("lift at the nose less its mean", "um", 1e6, LIFT), ("largest contact load", "N", 1.0, "dynamic_load_max"),
@@ -27,7 +28,7 @@ def turns_figure(layout, _whole_cycle=None):
     entries = [entry for entry in layout.entries if turns_of(layout.results[entry.file], LIFT, entry.case).size]
     if not entries:
         raise Missing("trains that do not repeat every turn")
-    figure = Figure(figsize=(9.0, 7.6), layout="constrained")
+    figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
     *panels, section = figure.subplots(2, 2).flat
     for number, entry in enumerate(entries):
         result, style = layout.results[entry.file], {"color": f"C{number % 10}", "markersize": 3.5}
@@ -43,7 +44,9 @@ def turns_figure(layout, _whole_cycle=None):
     section.set_ylabel("speed of the valve at the nose [m/s]")
     for axes in figure.axes:
         axes.grid(alpha=0.3)
-    head(figure, layout, "from turn to turn", (section.get_legend_handles_labels()[0], None), [])
+    legend = wrap_labels(section.get_legend_handles_labels()[0], WIDTH), None
+    figure.set_figheight(HEIGHT + legend_height(legend, WIDTH))
+    head(figure, layout, "from turn to turn", legend, [])
     return figure
 
 
@@ -51,8 +54,4 @@ def _words(layout, entry):
     """Name of a case, and after how many turns it repeats."""
     period = layout.results[entry.file].summary.get("period_cycles")
     repeats = int(period.values[entry.case]) if period is not None else 0
-    names = [layout.titles[entry.file] if len(layout.files) > 1 else "",
-             layout.name(layout.colour_key, entry.colour) if len(layout.colours) > 1 else "",
-             layout.panel_name(entry.panel) if len(layout.panels) > 1 else "",
-             f"repeats after {repeats} turns" if repeats else "no period"]
-    return ", ".join(filter(None, names))
+    return ", ".join(filter(None, [layout.entry_words(entry), f"repeats after {repeats} turns" if repeats else "no period"]))
