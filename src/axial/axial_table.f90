@@ -458,9 +458,9 @@ contains
       state%ends = state%ends*(known%mean/lengths%mean)
    end function axial_state
 
-   !> Parts of the roller that the dry contact loads, and on which the gap is wider by no more than a film than the widest on a part so
-   !> long. In a rigid contact of constant viscosity the load goes with one over the film, so that there the load per length is at least
-   !> half as large as where the dry contact ends.
+   !> Parts of the roller that the dry contact loads, and on which the gap is wider by no more than a film than the widest on a part
+   !> so long. In a rigid contact of constant viscosity the load goes with one over the film, so that there the load per length is at
+   !> least half as large as where the dry contact ends.
    pure function oiled_parts(part, load, radius, film) result(parts)
       !> The table
       type(axial_part_t), intent(in) :: part

@@ -128,8 +128,10 @@ contains
       if (allocated(error)) return
       study%first = int((options%shard - 1)*int(study%facts%cases, int64)/options%shards) + 1
       study%last = int(options%shard*int(study%facts%cases, int64)/options%shards)
-      if (study%first > study%last) then
-         call raise(error, kind_usage, integer_text(options%shards)//" shards are more than there are cases")
+      ! Whether or not this one has a case, so that all tasks of a job end alike
+      if (options%shards > study%facts%cases) then
+         call raise(error, kind_usage, integer_text(options%shards)//" shards are more than the "// &
+            & counted(study%facts%cases, "case"))
          return
       end if
       study%runs%first = [study%first]

@@ -35,7 +35,6 @@ module camroller_deck_sweep
    !> Digits that tell any two numbers apart, and characters that take a number of so many
    integer, parameter :: all_digits = 17, number_width = 32
 
-
    !> One key that varies: a list of values, or a range
    type :: sweep_axis_t
       !> As `group.key`

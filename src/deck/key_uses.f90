@@ -45,6 +45,8 @@ module camroller_key_uses
       key_use_t("lift.table_nose_angle_deg", "law", "table"), &
       key_use_t("lift.smoothing_um", "law", "table"), &
       key_use_t("mechanism.adjuster_tilt_deg", "masses.finger_kg", given), &
+      key_use_t("masses.finger_centre_mm", "masses.finger_kg", given), &
+      key_use_t("spring.seat_stiffness_N_m", "seating", "continuous"), &
       key_use_t("lubricant.viscosity_Pa_s", "temperature_law", "direct"), &
       key_use_t("lubricant.temperature_points_degC", "temperature_law", point_laws), &
       key_use_t("lubricant.viscosity_points_Pa_s", "temperature_law", point_laws), &
@@ -67,6 +69,13 @@ module camroller_key_uses
       key_use_t("roller_profile.crown_radius_mm", "profile", "crowned"), &
       key_use_t("roller_profile.design_load_N", "profile", "logarithmic"), &
       key_use_t("roller_profile.end_drop_um", "profile", "logarithmic"), &
+      key_use_t("heat.limit_fall_per_K", "contact", "mean"), &
+      key_use_t("heat.cam_conductivity_W_m_K", "contact", "mean"), &
+      key_use_t("heat.cam_density_kg_m3", "contact", "mean"), &
+      key_use_t("heat.cam_heat_capacity_J_kg_K", "contact", "mean"), &
+      key_use_t("heat.roller_conductivity_W_m_K", "contact", "mean"), &
+      key_use_t("heat.roller_density_kg_m3", "contact", "mean"), &
+      key_use_t("heat.roller_heat_capacity_J_kg_K", "contact", "mean"), &
       key_use_t("asperity.roughness_product", "law", summit_laws), &
       key_use_t("asperity.roughness_over_tip_radius", "law", summit_laws), &
       key_use_t("asperity.mobilising_speed_m_s", "mobilisation", "regularised"), &

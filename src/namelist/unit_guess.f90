@@ -61,10 +61,15 @@ contains
       if (key%unit%suffix == "degC") call ask_value(key, number - celsius_zero, number_text(number, digits)//" K", words)
       if (key%unit%suffix == "deg") call ask_value(key, number/degree, number_text(number, digits)//" rad", words)
       if (any(key%unit%suffix == of_one_size)) return
+      if (key%unit%suffix == "") then
+         ! Nobody writes a part of one in thousandths. Where anything down to zero is usual, a hundredth of a part tells nothing
+         if (abs(number) >= 1.0_wp .or. key%usual%smallest > 0.0_wp) call ask_value(key, number*10.0_wp**percent, &
+            & number_text(number, digits)//" %", words)
+         return
+      end if
       do i = 1, size(slips)
          call ask_value(key, number*10.0_wp**slips(i), "", words)
       end do
-      if (key%unit%suffix == "") call ask_value(key, number*10.0_wp**percent, number_text(number, digits)//" %", words)
    end subroutine say_meant
 
    !> Ask for a value where it is usual and nothing is asked yet.

@@ -3,7 +3,7 @@
 !> In: a search that has ended. Out: text.
 module camroller_limits_page
    use camroller_kinds, only : wp, per_minute
-   use camroller_limit_speeds, only : adjuster_limit, closing_limit, joint_limit, limit_names, limits_t, &
+   use camroller_limit_speeds, only : adjuster_limit, closing_limit, contact_limit, joint_limit, limit_names, limits_t, &
       & seating_limit
    use camroller_number_text, only : integer_text, number_text, right_text
    implicit none
@@ -12,6 +12,8 @@ module camroller_limits_page
    public :: write_limits_page
 
    character(len=*), parameter :: n = new_line("a")
+   !> What stands in the place of a limit that the masses do not give
+   character(len=*), parameter :: unknown = "unknown"
    !> Widths of the columns
    integer, parameter :: first_width = 50, speed_width = 16
 
@@ -27,15 +29,19 @@ contains
       character(len=first_width) :: name
       character(len=:), allocatable :: line, words
       integer :: limit, i
+      logical :: has_unknown
 
       name = "Lowest speed of the camshaft found at which ..."
       text = name//right_text("rigid train", speed_width)
       if (search%is_flexible) text = text//right_text("flexible train", speed_width)
+      has_unknown = .false.
       do limit = 1, size(search%rigid)
          name = limit_names(limit)
+         if (limit == contact_limit .and. .not. search%is_flexible) name = "cam and roller part with the valve off its seat"
          if (limit == joint_limit .and. search%has_lash) name = trim(name)//" in the event"
          if (limit == seating_limit) name = trim(name)//" "//number_text(search%seating, 3)//" m/s"
          call rigid_text(search, limit, words)
+         has_unknown = has_unknown .or. words == unknown
          line = name//right_text(words, speed_width)
          if (search%is_flexible) then
             call flexible_text(search, limit, words)
@@ -47,12 +53,14 @@ contains
       end do
       if (search%is_flexible) then
          text = text//n//"speeds in rev/min; the flexible train was tried at "//integer_text(search%done)// &
-            & " speeds, in steps of "//number_text(search%step*per_minute, 5)//" and then to 1"//n// &
+            & " speeds, in steps of "//number_text(search%step*per_minute, 5)//" and then to 1; contact of the rigid "// &
+            & "train with the valve off its seat"//n// &
             & "a limit that is passed and regained within a step is not seen: try a smaller --step"
       else
          text = text//n//"speeds in rev/min; the rigid train by its forces without friction, which follow the "// &
             & "square of the speed"
       end if
+      if (has_unknown) text = text//n//unknown//": limits of the rigid train's pivot need masses.finger_kg"
       do i = 1, size(search%remarks)
          text = text//n//"remark: "//search%remarks(i)%text
       end do
@@ -71,7 +79,7 @@ contains
       if (limit == seating_limit .or. limit == closing_limit) then
          words = "-"
       else if (search%rigid(limit) < 0.0_wp) then
-         words = "finger_kg?"
+         words = unknown
       else if (search%rigid(limit) > huge(1.0_wp)) then
          words = "never"
       else

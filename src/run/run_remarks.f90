@@ -13,9 +13,9 @@ module camroller_run_remarks
    use camroller_case, only : case_t, numerics_t
    use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
-   use camroller_remarks, only : add_remark, creeping_roller, few_places, foreign_speed, deep_wear, idle_roller, &
-      & loose_tolerance, missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, shaken_train, &
-      & untouched_film
+   use camroller_remarks, only : add_remark, creeping_roller, few_places, foreign_speed, deep_wear, &
+      & held_coefficient, idle_roller, loose_tolerance, missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, &
+      & shaken_train, untouched_film
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
@@ -81,8 +81,41 @@ contains
       end associate
       call judge_stiffness(result, error)
       if (.not. allocated(error)) call judge_creep(case%asperity, allocated(case%wear), result, error)
-      if (allocated(case%boundary_law) .and. .not. allocated(error)) call judge_speed(case%boundary_law, result, error)
+      if (.not. allocated(case%boundary_law) .or. allocated(error)) return
+      call judge_speed(case%boundary_law, result, error)
+      ! A modifier or film has a coefficient of its own
+      if (allocated(case%friction_modifier) .or. allocated(case%tribofilm) .or. allocated(error)) return
+      call judge_bounds(case%boundary_law, result, error)
    end subroutine judge_assumptions
+
+   !> Say that a boundary law would go below its smallest or above its largest coefficient.
+   subroutine judge_bounds(law, result, error)
+      !> The law
+      type(boundary_law_t), intent(in) :: law
+      !> The result; gets the remark
+      type(result_t), intent(inout) :: result
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Smallest and largest coefficient [-], smallest load [N]
+      real(wp) :: values(3)
+      character(len=:), allocatable :: prefix, text
+      integer :: lobe
+
+      do lobe = 1, lobe_count(result)
+         prefix = trim(lobe_prefix(lobe))
+         call take_scalar(result, "min_"//prefix//"boundary_coefficient", values(1), error)
+         call take_scalar(result, "max_"//prefix//"boundary_coefficient", values(2), error)
+         call take_scalar(result, "min_"//prefix//"contact_load", values(3), error)
+         if (allocated(error)) return
+         ! Without contact there is none
+         text = ""
+         if (values(1) <= law%smallest .and. values(3) > 0.0_wp) text = "smallest_coefficient = "//number_text(law%smallest, 3)
+         if (values(2) >= law%largest) text = "largest_coefficient = "//number_text(law%largest, 3)
+         if (text /= "") call add_named(result, lobe, held_coefficient, "the law of &boundary_law goes beyond boundary_law."// &
+            & text//", at which it is held for a part of the cycle: it is far from its reference or points", 0.0_wp)
+      end do
+   end subroutine judge_bounds
 
    !> Say that a roller hardly turns.
    subroutine judge_turns(result)

@@ -71,3 +71,27 @@ def test_slices_far_narrower_than_the_contact_give_a_remark(camroller, tmp_path,
 def test_a_roller_that_does_not_turn_gives_a_remark(camroller, tmp_path, deck, settings, words):
     text = remarks(camroller, tmp_path, *settings, deck=deck)
     assert re.search(words, text, re.MULTILINE) if words else "hardly turns" not in text, text
+
+
+def test_a_boundary_law_that_is_held_at_its_bound_says_so(camroller, tmp_path):
+    """A straight line of the temperature takes friction to nothing at 95 degC; with a modifier the coefficient is another one."""
+    law = """
+&boundary_law
+   reference_speed_m_s = 0.1 reference_temperature_degC = 40 change_per_decade = 0.03 change_per_K = -0.001 lowest_speed_m_s = 1e-5
+/
+"""
+    deck = tmp_path / "law.nml"
+    deck.write_text((ROOT / "decks/thesis.nml").read_text(encoding="utf-8") + law, encoding="utf-8")
+    point = ("operating_point.oil_temperature_degC=95", "operating_point.speed_rpm=300")
+    told = "the law of &boundary_law goes beyond boundary_law."
+    assert told + "smallest_coefficient = 0, at which" in remarks(camroller, tmp_path, *point, "asperity.boundary_coefficient=0.12", deck=deck)
+    assert told + "largest_coefficient = 0.3, at" in remarks(camroller, tmp_path, *point, "asperity.boundary_coefficient=0.5", deck=deck)
+    assert told not in remarks(camroller, tmp_path, *point, "boundary_law.change_per_K=-0.0001", "asperity.boundary_coefficient=0.2",
+                               "boundary_law.change_per_decade=0.01", deck=deck)
+
+
+def test_a_film_that_carries_little_is_judged_by_what_it_carries(camroller, tmp_path):
+    """Asperities of a hard surface carry nine tenths and more of the load; the film's law is evaluated far below its range, all round."""
+    text = remarks(camroller, tmp_path, "materials.hardness_GPa=8", "asperity.law=zhao_maietta_chang", "operating_point.speed_rpm=300",
+                   "operating_point.oil_temperature_degC=95")
+    assert "outside its published range for 100 % of the cycle, in the event and on the base circle" in text

@@ -41,7 +41,9 @@ VALUES = {
     "gas_force.second_valve_diameter_mm": "20",
     "dynamics.seat_damping_s_m": "2", "dynamics.seat_restitution_speed_m_s": "0.4",
     "effects.negligible": "0.05", "effects.quantity": "minimum_film",
-    "mechanism.adjuster_tilt_deg": "5",
+    "mechanism.adjuster_tilt_deg": "5", "masses.finger_centre_mm": "21", "spring.seat_stiffness_N_m": "2e6",
+    "heat.limit_fall_per_K": "0.002", **{f"heat.{body}_{key}": value for body in ("cam", "roller") for key, value in
+                                         (("conductivity_W_m_K", "40"), ("density_kg_m3", "7000"), ("heat_capacity_J_kg_K", "400"))},
     "numerics.step_deg": "0.05", "numerics.periodicity": "0.5", "sweep.series_cases": None,
     "sweep.seed": None, **{f"sweep.{key}_{number}": None for key in ("count", "scale") for number in range(1, 9)},
 }
@@ -68,7 +70,10 @@ LOGARITHM = " ".join(key for key in VALUES if re.match("boundary_law.*(reference
 SPEEDS = " ".join(key for key in VALUES if re.match("boundary_law.*points", key))
 
 # The scene in which the moment of inertia of the finger is known and its mass is not
-MASSLESS, TILT = "finger without a mass", "mechanism.adjuster_tilt_deg"
+MASSLESS, TILT = "finger without a mass", " mechanism.adjuster_tilt_deg masses.finger_centre_mm"
+# That with the larger one of both forces on the closed valve, which has no seat
+JUMP, SEAT = "needles by SKF's model", " spring.seat_stiffness_N_m"
+HEAT = " ".join(key for key in VALUES if key.startswith("heat."))
 
 # name: values beside decks/thesis.nml, further groups, keys of the table that are used
 SCENES = {
@@ -99,18 +104,18 @@ SCENES = {
         "&heat contact = 'mean' viscosity_fall_per_K = 0.03 /\n&roller_profile profile = 'crowned' crown_radius_mm = 3000 /\n"
         "&boundary_law reference_speed_m_s = 0.1 reference_temperature_degC = 100 change_per_decade = 0.01 change_per_K = -0.0002\n"
         "lowest_speed_m_s = 0.001 /\n",
-        [BOUNDARY, POWER, "lubricant.viscosity_Pa_s traction.limiting_stress_MPa roller_profile.crown_radius_mm", PINS, LOGARITHM,
+        [BOUNDARY, POWER, HEAT, "lubricant.viscosity_Pa_s traction.limiting_stress_MPa roller_profile.crown_radius_mm", PINS, LOGARITHM,
          "effects.negligible effects.quantity"]),
     "logarithmic roller, table of boundary friction, Euler": (
         ["operating_point.speed_rpm=2000", "numerics.method=euler", "numerics.tolerance=1e-4", "numerics.periodicity=1e-9"],
         "&roller_profile profile = 'logarithmic' design_load_N = 800 /\n&heat /\n"
         "&boundary_law law = 'table' speed_points_m_s = 0.01, 0.1 temperature_points_degC = 20, 100\n"
         "coefficient_points = 0.11, 0.12, 0.1, 0.11 /\n",
-        [BOUNDARY, POWER, POINTS, NEEDLES, SPEEDS, "roller_profile.design_load_N roller_profile.end_drop_um",
+        [BOUNDARY, POWER, POINTS, NEEDLES, SPEEDS, HEAT, "roller_profile.design_load_N roller_profile.end_drop_um",
          "numerics.step_deg numerics.periodicity"]),
-    "needles by SKF's model": (
-        ["needle_bearing.kind=needles_skf", "needle_bearing.friction_coefficient=0.12", "needle_bearing.skf_rolling_factor=2.13e-6",
-         "needle_bearing.skf_sliding_factor=0.0015", "needle_bearing.skf_geometry_factor=6.2"], "",
+    JUMP: (
+        ["case.energy=source", "spring.seating=maximum", "needle_bearing.kind=needles_skf", "needle_bearing.friction_coefficient=0.12", "needle_bearing.skf_rolling_factor=2.13e-6",
+         "needle_bearing.skf_sliding_factor=0.0015", "needle_bearing.skf_geometry_factor=6.2"], "&heat contact = 'none' /\n",
         [BOUNDARY, POWER, POINTS, NEEDLES, SKF, "lubricant.density_kg_m3 lubricant.thermal_expansion_per_K"]),
     "gas on the valves of two lobe shapes": (
         ["cam_bearings.cam_lobes=1, 2", "cam_bearings.cam_positions_mm=20, 40", "cam_bearings.cam_phases_deg=0, 100"],
@@ -126,7 +131,7 @@ SCENES = {
 
 def used_in(*scenes):
     """Keys of the table that are used in scenes."""
-    return {key for scene in scenes for keys in [*SCENES[scene][2], TILT * (scene != MASSLESS)] for key in keys.split()}
+    return {key for scene in scenes for keys in [*SCENES[scene][2], TILT * (scene != MASSLESS), SEAT * (scene != JUMP)] for key in keys.split()}
 
 
 def run(camroller, deck, command, *values):

@@ -21,7 +21,12 @@ def test_a_rigid_train_by_its_forces(camroller):
     # Numbers of an independent evaluation of the margins
     assert all(abs(float(row[0]) - speed) < 1 for row, speed in zip(rows, [2471, 2357, 2937]))
     assert rows[3:] == [["-"], ["-"]]
-    assert "without friction" in notes[0]
+    assert "without friction" in notes[0] and not any("unknown" in note for note in notes)
+
+
+def test_limits_that_the_masses_do_not_give_say_which_key_does(camroller):
+    rows, notes = limits(camroller, "three_cam_head.nml")
+    assert rows[0] == rows[1] == ["unknown"] and notes[1] == "unknown: limits of the rigid train's pivot need masses.finger_kg"
 
 
 def test_a_flexible_train_by_runs(camroller):
@@ -29,7 +34,8 @@ def test_a_flexible_train_by_runs(camroller):
     # The vibration of the train unloads the joint at half the speed of the rigid train's forces: 1119 to a finer tolerance
     assert rows[0][0] == "2470.9" and abs(float(rows[0][1]) - 1119) < 15
     assert [row[1] for row in rows[1:]] == ["-", "above 1200", "above 1200", "above 1200"]
-    assert re.match(r"speeds in rev/min; the flexible train was tried at \d+ speeds, in steps of 400 and then to 1$", notes[0])
+    assert re.match(r"speeds in rev/min; the flexible train was tried at \d+ speeds, in steps of 400 and then to 1; contact of the "
+                    r"rigid train with the valve off its seat$", notes[0])
     assert notes[1] == "a limit that is passed and regained within a step is not seen: try a smaller --step"
 
 

@@ -298,3 +298,9 @@ def test_a_part_with_incomplete_first_record_is_started_again(camroller, deck, w
         assert same(whole, tmp_path / "deck.h5")
         assert [path.name for path in tmp_path.iterdir()] == ["deck.h5"]
         (tmp_path / "deck.h5").unlink()
+
+
+@pytest.mark.parametrize("shard", ["1/500", "77/500", "500/500"])
+def test_more_shards_than_cases_are_refused_in_every_task(camroller, deck, tmp_path, shard):
+    result = run(camroller, "sweep", deck, "--shard", shard, "--quiet", folder=tmp_path)
+    assert result.returncode == 2 and "500 shards are more than the " in result.stderr and not list(tmp_path.iterdir())

@@ -1,10 +1,12 @@
 !> Lengths of the one line contact that stands for a roller whose load is not the same all along it.
 module test_axial_lengths
    use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_axial_loads, only : solved_loads
    use camroller_axial_table, only : axial_part_t, axial_state, axial_state_t, effective_lengths, new_axial_part, slice_loads
    use camroller_error, only : error_t
    use camroller_kinds, only : wp, pi
    use camroller_roller_profile, only : roller_profile_t
+   use camroller_slices, only : load_slices, new_slices, slices_t
    use camroller_traction, only : line_lengths_t, rolling_biboulet_houpert, rolling_resistance, same_lengths
    use closeness, only : check_close, check_scaled, expect_success
    use roller_profiles, only : profiles
@@ -25,7 +27,8 @@ contains
          new_unittest("slopes of the lengths are their difference quotients, inside and outside the table", test_slopes), &
          new_unittest("the lengths of Hertz' ellipse are those of a parabola", test_parabola), &
          new_unittest("no length exceeds that of the roller, however small the load is", test_small_loads), &
-         new_unittest("what the slices of a roller resist to rolling adds up to what the roller resists", test_rolling) &
+         new_unittest("what the slices of a roller resist to rolling adds up to what the roller resists", test_rolling), &
+         new_unittest("solved loads of the slices are those found from even ones, where the table has others", test_solved) &
          ]
    end subroutine collect_axial_lengths
 
@@ -191,5 +194,42 @@ contains
       end do
       call check(error, contacts > 100 .and. total < mean*contacts, "rolling resistance in the mean")
    end subroutine test_rolling
+
+   !> Between the points of the table slices at the ends lift off: there cubics have loads that are not.
+   subroutine test_solved(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(axial_part_t) :: part
+      type(slices_t) :: slices
+      type(roller_profile_t) :: profile
+      type(error_t), allocatable :: failure
+      ! Loads over their mean: of the table, solved, found from even ones [-]; load [N], approach [m]
+      real(wp), dimension(41) :: table, solved, even
+      real(wp) :: load, approach
+      integer :: i, k, status, others
+
+      others = 0
+      do k = 1, 4
+         call new_axial_part(part, profiles(k), roller_length, modulus, [5.0e-3_wp, 30.0e-3_wp], failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         profile = profiles(k)
+         call new_slices(slices, roller_length, modulus, part%gaps, profile%coupling == "half_space")
+         do i = 1, 8
+            load = 10.0_wp*2.1_wp**i
+            call slice_loads(part, load, radius, table)
+            call solved_loads(part, load, radius, solved)
+            even = 1.0_wp
+            call load_slices(slices, load, radius, even, approach, status)
+            call check(error, status, 0)
+            if (allocated(error)) return
+            others = others + count((table > 0.0_wp) .neqv. (even > 0.0_wp))
+            ! Below the table its shape stays
+            if (load < modulus*roller_length**2*exp(part%first)) cycle
+            call check(error, all(abs(solved - even) < 1.0e-8_wp), "loads")
+            if (allocated(error)) return
+         end do
+      end do
+      call check(error, others > 10, "the table's loads end where they should")
+   end subroutine test_solved
 
 end module test_axial_lengths
