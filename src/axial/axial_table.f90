@@ -459,8 +459,8 @@ contains
    end function axial_state
 
    !> Parts of the roller that the dry contact loads, and on which the gap is wider by no more than a film than the widest on a part
-   !> so long. In a rigid contact of constant viscosity the load goes with one over the film, so that there the load per length is at
-   !> least half as large as where the dry contact ends.
+   !> so long. In a rigid contact of constant viscosity the load goes with one over the film, so that there the load per length is
+   !> at least half as large as where the dry contact ends.
    pure function oiled_parts(part, load, radius, film) result(parts)
       !> The table
       type(axial_part_t), intent(in) :: part
@@ -469,8 +469,9 @@ contains
       !> Both parts [-]
       real(wp) :: parts(2)
 
-      ! Lengths and their slopes [m], [-]; gap where the load ends [m]
+      ! Lengths and their slopes
       type(line_lengths_t) :: lengths, slopes(2)
+      ! Gap where the load ends [m]
       real(wp) :: edge
       integer :: i
 
