@@ -18,8 +18,8 @@ module camroller_stop_signal
 
    !> Interrupt from the terminal, first user signal, end
    integer(c_int), parameter :: stop_signals(*) = [2_c_int, 10_c_int, 15_c_int]
-   !> Those that end the program, and the end of its terminal
-   integer(c_int), parameter :: end_signals(*) = [1_c_int, 2_c_int, 15_c_int]
+   !> Those that end the program, the end of its terminal and the first user signal
+   integer(c_int), parameter :: end_signals(*) = [1_c_int, 2_c_int, 10_c_int, 15_c_int]
    !> Those of a library that breaks down or does not come back: abort, wrong address (two of them), time
    integer(c_int), parameter :: break_signals(*) = [6_c_int, 7_c_int, 11_c_int, 14_c_int]
    !> What `signal` takes for what a signal does by itself, and gives for one that is ignored

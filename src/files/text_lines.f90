@@ -14,7 +14,7 @@ module camroller_text_lines
       character(len=:), allocatable :: text
    end type line_t
 
-   !> A text and its lines; carriage returns before the ends of lines belong to none
+   !> A text and its lines; carriage returns before the ends of lines belong to none, and end lines where nothing else does
    type :: text_lines_t
       !> The text
       character(len=:), allocatable :: text
@@ -33,25 +33,28 @@ contains
       !> Its lines
       type(text_lines_t), intent(out) :: lines
 
+      character(len=1) :: ending
       integer :: i, n, first
 
       lines%text = text
+      ending = new_line("a")
+      if (index(text, ending) == 0 .and. index(text, char(13)) > 0) ending = char(13)
       n = 0
       do i = 1, len(text)
-         if (text(i:i) == new_line("a")) n = n + 1
+         if (text(i:i) == ending) n = n + 1
       end do
       if (len(text) > 0) then
-         if (text(len(text):) /= new_line("a")) n = n + 1
+         if (text(len(text):) /= ending) n = n + 1
       end if
       lines%count = n
       allocate (lines%first(n), lines%last(n))
       first = 1
       n = 0
       do i = 1, len(text)
-         if (text(i:i) /= new_line("a") .and. i < len(text)) cycle
+         if (text(i:i) /= ending .and. i < len(text)) cycle
          n = n + 1
          lines%first(n) = first
-         lines%last(n) = merge(i - 1, i, text(i:i) == new_line("a"))
+         lines%last(n) = merge(i - 1, i, text(i:i) == ending)
          first = i + 1
          if (lines%last(n) < lines%first(n)) cycle
          if (text(lines%last(n):lines%last(n)) == char(13)) lines%last(n) = lines%last(n) - 1

@@ -10,6 +10,9 @@ module camroller_text_encoding
 
    public :: check_encoding, first_foreign
 
+   !> U+00A0 in UTF-8
+   character(len=*), parameter :: no_break_space = char(194)//char(160)
+
 contains
 
    !> Complain about the first line that is no UTF-8.
@@ -25,9 +28,17 @@ contains
       character(len=:), allocatable :: reason
 
       do i = 1, lines%count
-         place = first_foreign(lines%text(lines%first(i):lines%last(i)))
+         associate (line => lines%text(lines%first(i):lines%last(i)))
+            place = first_foreign(line)
+            reason = "byte "//integer_text(place)//" of this line is no UTF-8, but perhaps Latin-1; save the text in UTF-8"
+            if (place == 0) then
+               place = index(line, no_break_space)
+               ! Text in quotes and comments may have it
+               if (scan(line(:place), "'""!#") > 0) place = 0
+               reason = "byte "//integer_text(place)//" of this line is a no-break space, which looks like a blank and is none"
+            end if
+         end associate
          if (place == 0) cycle
-         reason = "byte "//integer_text(place)//" of this line is no UTF-8, but perhaps Latin-1; save the text in UTF-8"
          if (present(path)) then
             call add_mistake(mistakes, reason, i, 0, 0, path, line_at(lines, i))
          else

@@ -30,7 +30,7 @@ def check_table(camroller, folder, table):
     return check(camroller, folder / "deck.nml"), f"{folder}/tables/polynomial_lift.txt"
 
 
-@pytest.mark.parametrize("text", [THESIS, THESIS.replace("\n", "\r\n"), "! \u00fc\n" + THESIS])
+@pytest.mark.parametrize("text", [THESIS, THESIS.replace("\n", "\r\n"), THESIS.replace("\n", "\r"), "! \u00fc\n" + THESIS])
 def test_a_byte_order_mark_is_skipped(camroller, tmp_path, text):
     path = tmp_path / "deck.nml"
     path.write_bytes(b"\xef\xbb\xbf" + text.encode("utf-8"))
@@ -51,6 +51,17 @@ def test_a_binary_deck_is_refused_without_quoting_it(camroller, tmp_path, conten
     result = check(camroller, path)
     assert result.returncode == FILE
     assert result.stderr == f"camroller: '{path}' {words}\n"
+
+
+@pytest.mark.parametrize(("old", "new", "is_told"), [
+    ("mass_kg = 0.0088", "mass_kg = 0.0088\u00a0", True), ("mass_kg = 0.0088", "mass_kg =\u00a00.0088", True),
+    ("mass_kg = 0.0088", "mass_kg = 0.0088  ! 8.8\u00a0g", False), ("title = '", "title = '8.8\u00a0g, ", False)])
+def test_a_no_break_space_is_told_but_in_texts_and_comments(camroller, tmp_path, old, new, is_told):
+    assert old in THESIS
+    (tmp_path / "deck.nml").write_text(THESIS.replace(old, new), encoding="utf-8")
+    result = check(camroller, tmp_path / "deck.nml")
+    assert result.returncode == (DECK if is_told else 0), result.stderr
+    assert ("of this line is a no-break space, which looks like a blank and is none" in result.stderr) == is_told
 
 
 def test_messages_are_readable_for_a_deck_in_another_encoding(camroller, tmp_path):

@@ -21,7 +21,7 @@ KILOBYTE = 1024
 SMALL_SPACES = [100_000, 150_000, 200_000, 300_000, 400_000]
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1])
 @pytest.mark.parametrize("deck", ["thesis", "three_cam_head"])
 def test_a_signal_leaves_nothing_behind(camroller, tmp_path, number, deck):
     """Its own unfinished file goes; the earlier one stays, and those that others write or that have such a name."""
