@@ -17,8 +17,7 @@ module camroller_ehl_step
    use camroller_spin, only : rolling_speed_at, rolling_speed_slope
    use camroller_stick, only : has_stick
    use camroller_roller, only : spin_acceleration
-   use camroller_needle, only : bearing_torque
-   use camroller_needle_drag, only : drag_torque
+   use camroller_contact_forces, only : find_bearing_torque, has_curved_bearing
    use camroller_traction, only : law_eyring, rolling_none, limit_shear, mobilised_share, sliding_direction
    use camroller_contact_heat, only : has_hot_contact, set_heat
    use camroller_ehl_grid, only : ehl_grid_t
@@ -389,16 +388,25 @@ contains
       !> Torque [N m]
       real(wp) :: torque
 
-      ! Spin of the roller over the finger [rad/s]
+      real(wp) :: by_load ! [m]
+
+      call find_bearing_torque(model, load, spin_at(model, position, sliding_speed), torque, by_load)
+   end function bearing_moment
+
+   !> Spin of the roller over the finger.
+   pure function spin_at(model, position, sliding_speed) result(spin)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> The spin [rad/s]
       real(wp) :: spin
 
-      torque = 0.0_wp
       spin = (rolling_speed_at(model, position) - sliding_speed)/model%roller_radius &
          & - model%linkage%sense*position%finger_slope*model%speed
-      if (allocated(model%bearing)) torque = bearing_torque(model%bearing%friction_coefficient, max(load, 0.0_wp), &
-         & model%bearing%radius, spin, model%bearing%reversal_spin)
-      if (allocated(model%drag)) torque = torque + drag_torque(model%drag, spin)
-   end function bearing_moment
+   end function spin_at
 
    !> Load at which the finger is in balance with the friction given.
    pure function balanced_load(model, position, moments, traction, rolling, sliding_speed) result(load)
@@ -415,24 +423,37 @@ contains
       !> Load; zero where the moments would lift the roller off [N]
       real(wp) :: load
 
-      ! Moment that the contact balances, drag of the oil in the roller's bearing [N m]; arm [m]
-      real(wp) :: moment, drag, arm
-      ! Net tangential force on the roller [N]
-      real(wp) :: tangential
+      ! Rounds, at most
+      integer, parameter :: most_rounds = 50
+      ! Relative change of the load that ends them [-]
+      real(wp), parameter :: tolerance = 4.0_wp*epsilon(1.0_wp)
+      ! Moment that the contact balances, torque of the roller's bearing [N m]; arm, slope of that torque over the load [m]
+      real(wp) :: moment, torque, arm, by_load
+      ! Net tangential force on the roller, load of the round before [N]
+      real(wp) :: tangential, before
+      integer :: round
 
       arm = merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       moment = finger_moment(model, position, moments)
       if (model%is_consistent) then
          tangential = traction + rolling*(2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp)
          moment = moment - model%linkage%sense*tangential*position%tangent_arm
-         drag = bearing_moment(model, position, 0.0_wp, sliding_speed)
-         moment = moment - model%linkage%sense*drag
-         arm = arm + model%linkage%sense*(bearing_moment(model, position, 1.0_wp, sliding_speed) - drag)
       end if
-      load = moment/arm
-      if (has_pivot_friction(model)) call add_pivot_friction(model, position, moments, tangential, moment, arm, load)
+      load = max(moment/arm, 0.0_wp)
+      torque = 0.0_wp
+      by_load = 0.0_wp
+      do round = 1, most_rounds
+         before = load
+         ! Along the tangent of the torque, which is the torque where it is in proportion
+         if (model%is_consistent) call find_bearing_torque(model, load, spin_at(model, position, sliding_speed), torque, by_load)
+         torque = torque - by_load*load
+         load = (moment - model%linkage%sense*torque)/(arm + model%linkage%sense*by_load)
+         if (has_pivot_friction(model)) call add_pivot_friction(model, position, moments, tangential, moment &
+            & - model%linkage%sense*torque, arm + model%linkage%sense*by_load, load)
+         load = max(load, 0.0_wp)
+         if (.not. has_curved_bearing(model) .or. abs(load - before) <= tolerance*load) exit
+      end do
       if (model%takes_maximum_load) load = max(load, model%base_circle_load)
-      load = max(load, 0.0_wp)
    end function balanced_load
 
    !> The same with the friction of the pivot, which depends on the load: a contraction, whose factor is the friction circle of the

@@ -23,7 +23,7 @@ module camroller_contact_forces
 
    public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, start_heat, prepare_contact, evaluate_contact, &
       & follow_contact, release_contact, film_groups, set_surfaces, has_curved_bearing, has_oil_drag, oil_drag_slope, &
-      & bearing_by_reversal, bearing_slope, set_bearing_drag
+      & bearing_by_reversal, bearing_slope, find_bearing_torque, set_bearing_drag
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
    !> error left, times a factor of a few [-]
@@ -63,10 +63,49 @@ contains
       !> In: spin relative to the finger; out: with the torque
       type(contact_t), intent(inout) :: contact
 
-      contact%bearing_drag = 0.0_wp
-      if (allocated(model%drag)) contact%bearing_drag = drag_torque(model%drag, contact%relative_spin)
-      if (has_pin_film(model)) contact%bearing_drag = unloaded_torque(model%bearing%film)*contact%relative_spin
+      contact%bearing_drag = oil_drag(model, contact%relative_spin)
    end subroutine set_bearing_drag
+
+   !> Torque of the roller's bearing that the oil makes in it, whatever the load.
+   pure function oil_drag(model, spin) result(torque)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Spin of the roller relative to the finger [rad/s]
+      real(wp), intent(in) :: spin
+      !> Torque [N m]
+      real(wp) :: torque
+
+      torque = 0.0_wp
+      if (allocated(model%drag)) torque = drag_torque(model%drag, spin)
+      if (has_pin_film(model)) torque = unloaded_torque(model%bearing%film)*spin
+   end function oil_drag
+
+   !> Whole torque of the roller's bearing under a load.
+   pure subroutine find_bearing_torque(model, load, spin, torque, by_load)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Load [N], spin of the roller relative to the finger [rad/s]
+      real(wp), intent(in) :: load, spin
+      !> Torque [N m], its derivative over the load [m]
+      real(wp), intent(out) :: torque, by_load
+
+      ! Part of the load [N m], its slopes that are not wanted
+      real(wp) :: part, by_spin, by_reversal
+
+      torque = oil_drag(model, spin)
+      by_load = 0.0_wp
+      if (.not. allocated(model%bearing)) return
+      if (has_curved_bearing(model)) then
+         if (.not. load > 0.0_wp) return
+         call loaded_torque(model%bearing, load, spin, part, by_load, by_spin, by_reversal)
+         by_load = by_load/load
+      else
+         by_load = bearing_torque(model%bearing%friction_coefficient, 1.0_wp, model%bearing%radius, spin, &
+            & model%bearing%reversal_spin)
+         part = by_load*max(load, 0.0_wp)
+      end if
+      torque = torque + part
+   end subroutine find_bearing_torque
 
    !> Does the roller turn on a pin with an oil film?
    pure function has_pin_film(model) result(has)
