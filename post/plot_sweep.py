@@ -36,7 +36,7 @@ import numpy as np  # noqa: E402
 from command import DPI, run, save_figure  # noqa: E402
 from layout import SPEED, TAKEN, groups_over, is_one_of, key_meant, lost_contact, lost_contact_words, thin_out  # noqa: E402
 from read import ResultError, fills_grid, read_result  # noqa: E402
-from units import distinct_texts, fitting_unit, key_words, number, unit_words, with_unit  # noqa: E402
+from units import distinct_texts, fitting_unit, key_words, number, shaft_words, unit_words, with_unit  # noqa: E402
 
 FIGURES = ("map", "curves", "scatter", "parallel")
 QUANTITY = "mean_torque_drive"
@@ -98,12 +98,12 @@ class Sweep:
         """A scalar of the summary, without number for the cases that are not kept."""
         quantity = result.scalar(name)
         values = self._numbers(name, self._taken(name, quantity.values))
-        unit, label = quantity.units, key_words(name, quantity.units)
+        unit, label, shaft = quantity.units, key_words(name, quantity.units), shaft_words(result.summary, name, quantity.units)
         if name not in self.words:
             unit, scale = fitting_unit(name, unit, values)
             values, label = values * scale, (f"{self.take} {name}" if self.groups else name).replace("_", " ")
         values = np.where(kept, values, np.nan)
-        self.quantities[name] = (values, with_unit(label, unit_words(unit)))
+        self.quantities[name] = (values, with_unit(label + shaft, unit_words(unit)))
         known = values[np.isfinite(values)]
         if name not in self.words and known.size and known.min() > 0 and known.max() > WIDE * known.min():
             self.logarithmic.add(name)

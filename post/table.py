@@ -23,7 +23,7 @@ import numpy as np
 from command import run, whole_number
 from layout import POINT, TAKEN, chosen_cases, groups_over, lost_contact, lost_contact_words, not_computed, not_computed_words, some_numbers
 from read import ResultError, read_result
-from units import distinct_texts, factor, fitting_unit, number, with_unit
+from units import distinct_texts, factor, fitting_unit, number, shaft_words, with_unit
 
 # Scalar of the summary, heading, unit; of scalars with one heading the first that a file has counts
 COLUMNS = [
@@ -89,15 +89,16 @@ def column_of(result, name, groups, take, heading=None, unit=None) -> list[str]:
     quantity = result.scalar(name)
     if quantity.values.dtype.kind not in 'fiu':
         return [heading or name, *(', '.join(dict.fromkeys(str(value) for value in quantity.values[group])) for group in groups)]
+    heading = (heading or name) + shaft_words(result.summary, name, quantity.units)
     if take == RANGE:
-        return range_of(heading or name, quantity, groups, unit)
+        return range_of(heading, quantity, groups, unit)
     # A case without a result, which has no number, leaves its group without one
     values = np.array([TAKEN[take](quantity.values[group]) if take else quantity.values[group[0]] for group in groups])
     scale = factor(quantity.units, unit) if unit else None
     if scale is None:
         unit, scale = fitting_unit(name, quantity.units, values)
     cells = [str(value) if values.dtype.kind in 'iu' and scale == 1.0 else number(value * scale) for value in values]
-    return [with_unit(heading or name, unit), *cells]
+    return [with_unit(heading, unit), *cells]
 
 
 def range_of(heading, quantity, groups, unit) -> list[str]:

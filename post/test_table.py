@@ -39,6 +39,16 @@ def test_numbers_are_neither_nought_nor_endless_and_speeds_are_in_rev_min(grid):
     assert first[2:] == ["2937", "8.40e-05", "0.975", "133", "0"]
 
 
+def test_limits_of_speed_name_the_shaft_where_the_deck_has_the_speed_of_the_crankshaft(grid):
+    names = ["contact_loss_speed", "max_hertz_pressure"]
+    with h5py.File(grid, "a") as file:
+        file["summary/crank_turns"] = np.full(60, 2.0)
+        file["summary/crank_turns"].attrs["units"] = "1"
+    assert rows(table_of(read_result(grid), names))[0][2:] == ["contact_loss_speed of the camshaft [rev/min]", "max_hertz_pressure [GPa]"]
+    over = rows(table_of(read_result(grid), names, over=("oil_temperature_degC",), take="range"))[0]
+    assert "contact_loss_speed of the camshaft [rev/min]" in " ".join(over)
+
+
 def test_a_long_table_is_cut_and_says_so(grid, capsys):
     assert main([str(grid)]) == 0
     text = capsys.readouterr().out

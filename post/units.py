@@ -52,6 +52,11 @@ def fitting_unit(name, unit, values):
     return next((choice for choice in reversed(choices) if top * choice[1] >= LEAST), choices[0])
 
 
+def shaft_words(summary, name, unit):
+    """What to say behind a limit of speed where the deck gives the speed of a crankshaft; nothing elsewhere."""
+    return " of the camshaft" if "crank_turns" in summary and name.endswith("_speed") and plain_unit(unit) == "rad/s" else ""
+
+
 def unit_words(unit):
     """A unit as printed in a figure."""
     return WORDS.get(unit, unit)
