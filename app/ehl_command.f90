@@ -130,6 +130,8 @@ contains
          if (.not. allocated(trouble)) call judge_parts(case, outcome%remarks)
          do lobe = 1, size(file%lobes)
             call make_sweep_case(deck, i, case, trouble)
+            ! Formulas beside the film are without it as well
+            if (allocated(case%heat)) deallocate (case%heat)
             if (.not. allocated(trouble)) call solve_case(case, lobe == 2, outcome%remarks, record, line, trouble, without_steady)
             if (allocated(without_steady) .and. .not. is_quiet) call tell("remark: "//case_in_words(deck%sweep, i)// &
                & " has no cycle with steady films to compare with: "//without_steady%message//new_line("a"))

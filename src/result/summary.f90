@@ -5,7 +5,7 @@
 module camroller_summary
    use camroller_cam_angle, only : file_angle
    use camroller_kinds, only : wp, two_pi, degree
-   use camroller_case, only : case_t, energy_names
+   use camroller_case, only : case_t, energy_names, has_engine
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
    use camroller_flexible_report, only : add_outlook, add_train_scalars
@@ -17,7 +17,7 @@ module camroller_summary
    use camroller_means, only : statistics_t
    use camroller_number_text, only : integer_text
    use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, is_film, lobe_scope, &
-      & scope_camshaft, scope_engine, take_quantities
+      & scope_camshaft, scope_engine, scope_length, take_quantities
    use camroller_series_extremes, only : series_extremes_t
    use camroller_shaft, only : solved_t
    implicit none
@@ -162,8 +162,10 @@ contains
       !> List of scalars
       type(quantity_list_t), intent(inout) :: list
 
+      character(len=scope_length) :: scope
       integer :: i, series
 
+      scope = merge(scope_engine, scope_camshaft, has_engine(case))
       do i = 1, torque_count
          if (is_loss(i)) call add_loss(trim(torque_list(i)%name))
       end do
@@ -174,7 +176,7 @@ contains
          & "largest energy residual relative to the mean power lost", "torque", &
          & max(-extremes%lowest(series), extremes%highest(series)) &
          & /max(tiny(1.0_wp), case%operating_point%speed*means(find_quantity(result%series, "torque_friction"))), &
-         & scope_camshaft)
+         & scope)
 
    contains
 
@@ -187,9 +189,9 @@ contains
          if (series == 0) return
          associate (source => result%series(series)%source)
             call add(list, "power_"//loss, "W", "mean power lost, "//loss, source, means(series)*case%operating_point%speed, &
-               & scope_camshaft)
+               & scope)
             call add(list, "work_"//loss, "J", "energy lost per cam revolution, "//loss, source, means(series)*two_pi, &
-               & scope_camshaft)
+               & scope)
          end associate
       end subroutine add_loss
 

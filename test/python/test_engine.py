@@ -81,7 +81,8 @@ def test_scopes_distinguish_follower_camshaft_and_engine(result):
     scope = {name: value if isinstance(value, str) else value.decode() for name, value in result["scope"].items()}
     assert scope["contact_load"] == "lobe 1" and scope["lobe_2_contact_load"] == "lobe 2"
     assert scope["camshaft_2_torque_drive"] == "camshaft 2" and scope["torque_drive"] == "engine"
-    assert result["summary_scope"]["fmep_friction"] in ("engine", b"engine")
+    for name in ("fmep_friction", "power_friction", "work_contact", "relative_energy_residual"):
+        assert result["summary_scope"][name] in ("engine", b"engine")
 
 
 def test_firing_order_gives_the_phases(camroller, tmp_path):

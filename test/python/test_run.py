@@ -186,6 +186,18 @@ def test_contacts_are_solved_over_the_cycle(camroller, tmp_path):
     assert lines[0].startswith("  ehl/traction: in 1 case, at most by ") and "ehl/" not in "".join(lines[1:])
 
 
+def test_heat_is_left_out_of_solved_contacts_and_of_the_formulas_beside_them(camroller, tmp_path):
+    """At 900 rev/min and 25 degC heat in the inlet takes a tenth of the central film by its formula."""
+    point = ["--set", "sweep.values_1=900", "--set", "sweep.values_2=25"]
+    deck = tmp_path / "hot.nml"
+    deck.write_text((ROOT / "decks/numerical_film.nml").read_text() + "\n&heat oil_conductivity_W_m_K = 0.14 /\n")
+    for name, path in (("hot", deck), ("plain", ROOT / "decks/numerical_film.nml")):
+        done(camroller, "ehl", path, *point, "-o", tmp_path / f"{name}.h5")
+    with h5py.File(tmp_path / "hot.h5") as hot, h5py.File(tmp_path / "plain.h5") as plain:
+        for quantity in ("film_central", "film_central_formula", "traction"):
+            assert (hot["ehl"][quantity][...] == plain["ehl"][quantity][...]).all(), quantity
+
+
 SMALL = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
 
 
