@@ -462,7 +462,7 @@ contains
       if (allocated(case%needle_bearing)) then
          allocate (model%bearing)
          call new_bearing_part(model%bearing, case%needle_bearing, model%roller_radius - case%roller%wall_thickness, &
-            & allocated(case%ehl) .or. allocated(case%needle_drag), error)
+            & allocated(case%needle_drag), error)
          if (allocated(error)) return
       end if
       if (allocated(case%needle_drag)) then

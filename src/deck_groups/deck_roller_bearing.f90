@@ -148,14 +148,11 @@ contains
          & "pin_roughness_um", "pin_modulus_GPa"]
       character(len=*), parameter :: skf_numbers(*) = [character(len=23) :: "skf_rolling_factor", "skf_sliding_factor", &
          & "skf_geometry_factor"]
-      character(len=*), parameter :: others(*) = [character(len=11) :: "ehl", "needle_drag"]
       character(len=:), allocatable :: numbers(:)
       integer :: i
 
-      do i = 1, size(others)
-         if (has_group(settings, trim(others(i)))) call complain(mistakes, settings, group, "kind", &
-            & "kind '"//kind//"' is not combined with the group &"//trim(others(i)))
-      end do
+      if (has_group(settings, "needle_drag")) call complain(mistakes, settings, group, "kind", &
+         & "kind '"//kind//"' is not combined with the group &needle_drag")
       if (kind == roller_bearing_names(kind_journal)) then
          numbers = pin_numbers
       else

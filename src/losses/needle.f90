@@ -56,15 +56,15 @@ module camroller_needle
 contains
 
    !> Make a bearing ready.
-   subroutine new_bearing_part(part, bearing, inner_radius, has_others, error)
+   subroutine new_bearing_part(part, bearing, inner_radius, has_drag, error)
       !> Ready for evaluation
       type(bearing_part_t), intent(out) :: part
       !> As a deck has it
       type(needle_bearing_t), intent(in) :: bearing
       !> Inner radius of the roller [m]
       real(wp), intent(in) :: inner_radius
-      !> Has the case a numerical film or a drag of needles?
-      logical, intent(in) :: has_others
+      !> Has the case a drag of needles?
+      logical, intent(in) :: has_drag
       !> Deck error: unknown kind, or numbers that its film cannot have
       type(error_t), allocatable, intent(out) :: error
 
@@ -76,9 +76,9 @@ contains
       part%radius = friction_radius(bearing, inner_radius)
       part%reversal_ratio = bearing%reversal_ratio
       if (choice /= kind_journal .and. choice /= kind_skf) return
-      if (has_others) then
+      if (has_drag) then
          call raise(error, kind_deck, "needle_bearing: kind '"//trim(bearing%kind)// &
-            & "' is not combined with &ehl or &needle_drag")
+            & "' is not combined with &needle_drag")
          return
       end if
       part%friction_coefficient = 0.0_wp

@@ -392,9 +392,6 @@ contains
          if (words == "'hermite'") is_allowed = .not. draft%has_dynamics
       case ("journal_motion")
          is_allowed = words == key%default .or. index(" short_ocvirk finite ", " "//deck_word(text, "cam_bearings", "law")//" ") > 0
-      case ("kind")
-         is_allowed = all(words /= [character(len=13) :: "'journal'", "'needles_skf'"]) .or. &
-            & index(text, "&ehl") == 0
       case ("sae_grade")
          is_allowed = words == key%default .neqv. draft%oil_by == oil_by_grade
       case ("energy", "mobilisation")
