@@ -62,6 +62,9 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      type(quantity_t), allocatable :: own(:)
+      ! Its values [unit of the quantity]
+      real(wp), allocatable :: rows(:, :)
       integer, allocatable :: columns(:)
       integer :: kind
 
@@ -69,7 +72,9 @@ contains
       do kind = 1, size(lists)
          columns = columns_of(quantities, lists(kind)%source)
          if (size(columns) == 0) cycle
-         call put_list(self%lists(kind), writer, kind, position, quantities(columns), values(:, columns), error)
+         own = quantities(columns)
+         rows = values(:, columns)
+         call put_list(self%lists(kind), writer, kind, position, own, rows, error)
          if (allocated(error)) exit
       end do
       if (allocated(error)) call abandon_output(writer)
@@ -90,6 +95,8 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      ! One column [unit of the quantity]
+      real(wp), allocatable :: column(:, :)
       integer :: i, place, rows
 
       rows = rows_of(values)
@@ -97,7 +104,9 @@ contains
       do i = 1, size(self%columns)
          if (allocated(error)) exit
          place = find_quantity(quantities, self%quantities(i)%name)
-         if (place > 0) call write_numbers(self%columns(i), position - 1, values(:rows, place:place), error)
+         if (place == 0) cycle
+         column = values(:rows, place:place)
+         call write_numbers(self%columns(i), position - 1, column, error)
       end do
    end subroutine put_list
 
@@ -122,7 +131,11 @@ contains
       !> The number
       integer :: rows
 
-      rows = rows_of(values(:, columns_of(quantities, quantities(place)%source)))
+      ! Values of the list [unit of the quantity]
+      real(wp), allocatable :: own(:, :)
+
+      own = values(:, columns_of(quantities, quantities(place)%source))
+      rows = rows_of(own)
    end function history_rows
 
    !> Which quantities come from a part of the model.
