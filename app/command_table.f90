@@ -156,8 +156,8 @@ contains
          & "without its &sweep, whatever its speed. Those of the rigid train follow from its forces. A train with &dynamics"//n// &
          & "is run at one speed after another, and between two of them where a limit was passed, with a tolerance of 1e-4"//n// &
          & "where the deck gives none; a limit that is passed and regained within a step is not seen. Prints a table.")
-      call add_option(commands, "--to", "", "SPEED", "highest speed tried [rev/min]; 6000 where not given")
-      call add_option(commands, "--step", "", "SPEED", "step of the speeds tried [rev/min]; 100 where not given")
+      call add_option(commands, "--to", "", "SPEED", "highest speed of the camshaft tried [rev/min]; 6000 where not given")
+      call add_option(commands, "--step", "", "SPEED", "step of these speeds [rev/min]; 100 where not given")
       call add_option(commands, "--seating", "", "SPEED", "speed of the valve at its seat that is too fast [m/s]; 0.5 where "// &
          & "not given")
       call add_option(commands, "--set", "-s", "group.key=value", meaning_set, may_be_repeated=.true.)
