@@ -315,6 +315,8 @@ contains
          end do
       end if
 
+      ! Like with like: the film that is solved over the cycle has one temperature
+      if (allocated(follower%heat)) deallocate (follower%heat)
       call solve_trial(follower, merge(quick_nodes, reference_nodes, is_quick), reference_step_error, 1, reference)
       call raise_failure(reference, "film solved over the cycle", failure)
       call add_reference(table, position, "solved over cycle", reference, not_a_number(), failure)
