@@ -14,7 +14,7 @@ module camroller_comparison_sink
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, is_text_dataset, list_members, member_length, read_extents, read_numbers, &
       & read_text, read_text_attribute
-   use camroller_history_file, only : history_group, history_rows
+   use camroller_history_file, only : history_group, rows_in_list
    use camroller_layout, only : layout_t
    use camroller_output_cases, only : choice_source, group_of_source
    use camroller_record, only : record_t
@@ -374,7 +374,7 @@ contains
       do i = 1, size(outcomes)
          if (.not. allocated(outcomes(i)%history)) cycle
          do k = 1, size(layout%history)
-            rows = history_rows(layout%history, outcomes(i)%history, k)
+            rows = rows_in_list(layout%history, outcomes(i)%history, k)
             name = trim(history_group(layout%history(k)))//"/"//layout%history(k)%name
             call read_numbers(self%file, "/"//name, [0, first + i - 2], [rows, 1], stored, error)
             if (allocated(error)) return

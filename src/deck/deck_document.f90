@@ -339,7 +339,8 @@ contains
       if (allocated(error)) return
       text = "# The deck"//new_line("a")//new_line("a")
       text = text//"A deck is a file of Fortran namelist groups, `&group key = value ... /`; `!` begins a comment. "// &
-         & "A line `include = 'file'` outside of groups stands for the lines of that file, in the deck's folder. "// &
+         & "A line `include = 'file'` outside of groups stands for the lines of that file, named from the folder of the file "// &
+         & "with the line. "// &
          & "Numbers are in SI units unless the last word of the key is a unit. The group of an effect switches the effect "// &
          & "on. This page is the output of `camroller defaults --markdown`; "// &
          & "`camroller defaults` prints the same as a deck."//new_line("a")//new_line("a")// &

@@ -16,7 +16,7 @@ module camroller_history_file
    implicit none
    private
 
-   public :: history_file_t, history_group, history_rows, put_history, close_history
+   public :: history_file_t, history_group, rows_in_list, put_history, close_history
 
    !> A list: the part of the model that it comes from, its group, its axis
    type :: list_t
@@ -121,7 +121,7 @@ contains
    end function rows_of
 
    !> Number of rows of the list that a quantity is in.
-   pure function history_rows(quantities, values, place) result(rows)
+   pure function rows_in_list(quantities, values, place) result(rows)
       !> What the columns mean, of all lists
       type(quantity_t), intent(in) :: quantities(:)
       !> Values, shape (row, quantity) [unit of the quantity]
@@ -136,7 +136,7 @@ contains
 
       own = values(:, columns_of(quantities, quantities(place)%source))
       rows = rows_of(own)
-   end function history_rows
+   end function rows_in_list
 
    !> Which quantities come from a part of the model.
    pure function columns_of(quantities, source) result(columns)

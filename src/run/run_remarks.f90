@@ -88,7 +88,7 @@ contains
       call judge_bounds(case%boundary_law, result, error)
    end subroutine judge_assumptions
 
-   !> Say that a boundary law would go below its smallest or above its largest coefficient.
+   !> Say that a boundary law would go below its smallest or above its largest coefficient; points of a table tell with the deck.
    subroutine judge_bounds(law, result, error)
       !> The law
       type(boundary_law_t), intent(in) :: law
@@ -97,23 +97,23 @@ contains
       !> Internal error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Smallest and largest coefficient [-], smallest load [N]
-      real(wp) :: values(3)
+      real(wp) :: values(3) ! Smallest and largest coefficient [-], smallest load [N]
       character(len=:), allocatable :: prefix, text
       integer :: lobe
 
+      if (law%law == boundary_law_names(boundary_table)) return
       do lobe = 1, lobe_count(result)
          prefix = trim(lobe_prefix(lobe))
          call take_scalar(result, "min_"//prefix//"boundary_coefficient", values(1), error)
          call take_scalar(result, "max_"//prefix//"boundary_coefficient", values(2), error)
          call take_scalar(result, "min_"//prefix//"contact_load", values(3), error)
          if (allocated(error)) return
-         ! Without contact there is none
-         text = ""
+         text = "" ! Without contact there is no smallest one
          if (values(1) <= law%smallest .and. values(3) > 0.0_wp) text = "smallest_coefficient = "//number_text(law%smallest, 3)
-         if (values(2) >= law%largest) text = "largest_coefficient = "//number_text(law%largest, 3)
+         if (values(2) >= law%largest .and. text /= "") text = text//" and "
+         if (values(2) >= law%largest) text = text//"largest_coefficient = "//number_text(law%largest, 3)
          if (text /= "") call add_named(result, lobe, held_coefficient, "the law of &boundary_law goes beyond boundary_law."// &
-            & text//", at which it is held for a part of the cycle: it is far from its reference or points", 0.0_wp)
+            & text//", at which it is held for a part of the cycle: it is far from its reference", 0.0_wp)
       end do
    end subroutine judge_bounds
 

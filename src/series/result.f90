@@ -119,15 +119,15 @@ contains
       real(wp), intent(in) :: rows(:, :)
 
       ! All lists [unit of each quantity]
-      real(wp), allocatable :: all(:, :)
+      real(wp), allocatable :: joined(:, :)
       integer :: before
 
       if (.not. allocated(result%history)) allocate (result%history(0), result%history_values(0, 0))
       before = size(result%history)
-      allocate (all(max(size(result%history_values, 1), size(rows, 1)), before + size(rows, 2)), source=not_a_number())
-      all(:size(result%history_values, 1), :before) = result%history_values
-      all(:size(rows, 1), before + 1:) = rows
-      call move_alloc(all, result%history_values)
+      allocate (joined(max(size(result%history_values, 1), size(rows, 1)), before + size(rows, 2)), source=not_a_number())
+      joined(:size(result%history_values, 1), :before) = result%history_values
+      joined(:size(rows, 1), before + 1:) = rows
+      call move_alloc(joined, result%history_values)
       result%history = [result%history, quantities]
    end subroutine append_history
 
