@@ -27,7 +27,8 @@ module camroller_sampled_extremes
    !> Neighbours on both sides are as close as that
    integer, parameter :: on_both_sides = 4
 
-   !> Rows that are looked near at most
+   !> Rows that are looked near at most: cylinders that do the same one after another have an extreme each, and each may hide it
+   !> beside some rows of unlike distance
    integer, parameter :: most_rows = 8
 
    !> Rows of series over one turn
@@ -286,6 +287,7 @@ contains
       search%trial = search%now%trial
       search%is_wanted = search%now%is_wanted
       if (search%now%steps >= most_steps) search%is_wanted = search%is_wanted .and. search%now%left > search%coarse*search%extent
+      search%is_wanted = search%is_wanted .and. may_gain(search)
       if (search%is_wanted) return
       call leave_row(search)
       call enter_row(samples, search)
@@ -449,13 +451,22 @@ contains
             call start_minimum(search%now, samples%angle(row) + x, values, search%worth*search%extent, most_halvings, jump, &
                & outer + [samples%angle(row), 0.0_wp])
          end associate
-         search%is_wanted = search%now%is_wanted
+         search%is_wanted = search%now%is_wanted .and. may_gain(search)
          search%trial = search%now%trial
          if (search%is_wanted) return
          call leave_row(search)
       end do
       search%left = search%value - min(search%value, search%bound)
    end subroutine enter_row
+
+   !> May there be a value near the present row that is lower than the extreme so far by more than what is not worth a value?
+   pure function may_gain(search)
+      !> The search
+      type(search_t), intent(in) :: search
+      logical :: may_gain
+
+      may_gain = .true.
+   end function may_gain
 
    !> Take what was found near a row.
    pure subroutine leave_row(search)
