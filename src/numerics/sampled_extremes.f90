@@ -29,7 +29,7 @@ module camroller_sampled_extremes
 
    !> Rows that are looked near at most: cylinders that do the same one after another have an extreme each, and each may hide it
    !> beside some rows of unlike distance
-   integer, parameter :: most_rows = 8
+   integer, parameter :: most_rows = 32
 
    !> Rows of series over one turn
    type :: samples_t
@@ -465,7 +465,7 @@ contains
       type(search_t), intent(in) :: search
       logical :: may_gain
 
-      may_gain = .true.
+      may_gain = search%now%value(2) - search%now%left < search%value - search%worth*search%extent
    end function may_gain
 
    !> Take what was found near a row.
