@@ -161,8 +161,9 @@ contains
          ! fall(T) = coefficient/(1 + bend T) at both temperatures
          part%hot%bend = max((falls(1) - falls(2))/(temperature_step*(2.0_wp*falls(2) - falls(1))), 0.0_wp)
          part%hot%coefficient = falls(1)*(1.0_wp + part%hot%bend*temperature_step)
+         ! In the cold the estimate of the coefficient rises with the temperature, as no oil's does: shear would grow with heat
          if (oil%pressure_law /= law_roelands) part%hot%pressure_fall = &
-            & log(oil%pressure_viscosity/warm(2)%pressure_viscosity)/(2.0_wp*temperature_step)
+            & max(log(oil%pressure_viscosity/warm(2)%pressure_viscosity)/(2.0_wp*temperature_step), 0.0_wp)
       else if (allocated(lubricant%pressure_viscosity_points) .and. oil%pressure_law /= law_roelands) then
          call get_oil(lubricant, temperature + 2.0_wp*temperature_step, warm(2), error)
          if (allocated(error)) return

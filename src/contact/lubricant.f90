@@ -6,6 +6,7 @@
 module camroller_lubricant
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
+   use camroller_number_text, only : number_text
    use camroller_names, only : name_length, find_name, index_of_name
    use camroller_contact_rule, only : rule_heights, rule_weights
    use camroller_oil_points, only : coefficient_at, vogel_viscosity
@@ -281,6 +282,12 @@ contains
             return
          end if
          oil%pressure_viscosity = so_klaus_coefficient(oil%viscosity/density/square_millimetre, slope, density)
+         if (oil%pressure_viscosity <= 0.0_wp) then
+            call raise(error, kind_domain, "lubricant: the estimate of the pressure-viscosity coefficient is below zero for "// &
+               & "an oil as thick as "//number_text(oil%viscosity/density/square_millimetre, 3)//" mm^2/s; give the "// &
+               & "coefficient, or Roelands' index")
+            return
+         end if
       end if
       oil%roelands_exponent = log(oil%viscosity) + roelands_constant
       if (oil%roelands_exponent <= 0.0_wp) then

@@ -41,6 +41,8 @@ module camroller_ehl_films
       real(wp) :: limit_part = 1.0_wp
       !> Rise of the film's temperature, mean over the dry contact [K]
       real(wp) :: mean_rise = 0.0_wp
+      !> Rise of the surfaces' temperature where asperities touch: mean of both, weighed with the pressure of the asperities [K]
+      real(wp) :: asperity_rise = 0.0_wp
       !> Mass flow over density and speed, equal everywhere in the full film [m]
       real(wp) :: flow = 0.0_wp
       !> What load and flow lack, relative [-]
@@ -128,6 +130,8 @@ contains
          if (allocated(fields%rise)) then
             films%limit_part = integral(grid, state%total*exp(-problem%heat%limit_fall*fields%rise))/integral(grid, state%total)
             films%mean_rise = sum(grid%weight*fields%rise, mask=abs(x) <= 1.0_wp)/sum(grid%weight, mask=abs(x) <= 1.0_wp)
+            if (films%asperity_share > 0.0_wp) films%asperity_rise = integral(grid, fields%asperity &
+               & *0.5_wp*sum(fields%surface_rise, 2))/(films%asperity_share*problem%load)
          end if
       end associate
       call get_friction(problem, grid, state, films)

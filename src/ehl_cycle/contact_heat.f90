@@ -28,11 +28,13 @@ contains
    end function has_hot_contact
 
    !> What the temperature along the contact depends on.
-   pure subroutine set_heat(model, surface_speed, sliding_speed, heat)
+   pure subroutine set_heat(model, surface_speed, sliding_speed, rise, heat)
       !> The model, with heat
       type(model_t), intent(in) :: model
       !> Speed of the cam's surface over the contact point, sliding speed [m/s]
       real(wp), intent(in) :: surface_speed, sliding_speed
+      !> Rise of the surfaces' temperature where asperities touch [K]
+      real(wp), intent(in) :: rise
       !> What follows
       type(ehl_heat_t), intent(out) :: heat
 
@@ -53,7 +55,7 @@ contains
       heat%limiting_stress = model%limiting_stress
       heat%cap = model%cap
       if (.not. allocated(model%boundary)) return
-      call find_boundary_friction(model%boundary, sliding_speed, 0.0_wp, 0.0_wp, friction)
+      call find_boundary_friction(model%boundary, sliding_speed, rise, 0.0_wp, friction)
       part = abs(sliding_direction(sliding_speed))
       if (.not. has_stick(model)) part = abs(mobilised_share(sliding_speed, model%boundary%mobilising_speed))
       heat%boundary_coefficient = friction%coefficient*part

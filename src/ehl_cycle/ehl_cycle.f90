@@ -274,7 +274,7 @@ contains
             if (pass == 1) march%largest_rolling = max(march%largest_rolling, abs(rolling_speed_at(model, position)))
             if (pass == 1) march%largest_load = max(march%largest_load, load)
             if (pass == 1) cycle
-            call new_ehl_problem(problem, contact_at(model, march, position, load, 0.0_wp), status)
+            call new_ehl_problem(problem, contact_at(model, march, position, moment_t(load=load)), status)
             if (status /= in_range) then
                call raise(error, kind_domain, "ehl: "//trim(range_text(status))//" at "// &
                   & cam_angle_text(2.0_wp*i*degree, 3))

@@ -7,6 +7,7 @@ module camroller_ehl_profiles
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t
+   use camroller_contact_traction, only : has_hot_boundary
    use camroller_dynamics, only : moments_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, prepare_march
    use camroller_ehl_newton, only : ehl_state_t
@@ -163,7 +164,8 @@ contains
       end do
    end subroutine steady_contacts
 
-   !> Film and friction at one angle.
+   !> Film and friction at one angle. Where the coefficient of boundary friction follows the temperature of the surfaces, both are
+   !> solved for by turns: the heat of boundary friction is a part of all heat, and the coefficient a weak function of it.
    subroutine solve_at(model, march, before, state, now, converged)
       !> The model
       type(model_t), intent(in) :: model
@@ -180,13 +182,25 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Gas force [N]; what the roller's equation would need, not used [m/s^2], [1/s]
-      real(wp) :: force, excess, slope
-      integer :: status
+      ! Change of the surfaces' temperature that may be left [K], and turns at most
+      real(wp), parameter :: last_change = 1.0e-3_wp
+      integer, parameter :: most_turns = 20
+      ! Gas force [N]; what the roller's equation would need, not used [m/s^2], [1/s]; rise of the surfaces before [K]
+      real(wp) :: force, excess, slope, rise
+      integer :: status, turn
 
       call evaluate_loading(model, now%angle, position, force, moments, status)
       converged = status == 0
-      if (converged) call find_film(model, march, position, before, [0.0_wp, 0.0_wp, 0.0_wp], state, now, converged)
+      if (.not. converged) return
+      now%films%asperity_rise = before(1)%films%asperity_rise
+      do turn = 1, most_turns
+         rise = now%films%asperity_rise
+         call find_film(model, march, position, before, [0.0_wp, 0.0_wp, 0.0_wp], state, now, converged)
+         if (.not. converged) return
+         if (.not. has_hot_boundary(model)) exit
+         converged = abs(now%films%asperity_rise - rise) <= last_change
+         if (converged) exit
+      end do
       if (.not. converged) return
       if (allocated(now%mass)) deallocate (now%mass)
       call spin_excess(model, position, now, now%sliding_speed, 0.0_wp, excess, slope)

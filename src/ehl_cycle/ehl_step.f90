@@ -165,15 +165,15 @@ contains
    end function rate_weights
 
    !> The contact as it is given.
-   pure function contact_at(model, march, position, load, sliding_speed) result(contact)
+   pure function contact_at(model, march, position, now) result(contact)
       !> The model
       type(model_t), intent(in) :: model
       !> What stays over the cycle
       type(ehl_march_t), intent(in) :: march
       !> Geometry
       type(position_t), intent(in) :: position
-      !> Load [N], sliding speed [m/s]
-      real(wp), intent(in) :: load, sliding_speed
+      !> Its load, its sliding speed, its surfaces' temperature as far as it is known
+      type(moment_t), intent(in) :: now
       !> The contact, under a load that scales the nodes
       type(ehl_contact_t) :: contact
 
@@ -181,11 +181,11 @@ contains
       real(wp) :: surface_speed
 
       surface_speed = model%speed*position%surface_travel
-      contact%line_load = max(load, least_load_of(march))/model%contact_width
+      contact%line_load = max(now%load, least_load_of(march))/model%contact_width
       contact%radius = position%equivalent_radius
       contact%modulus = model%modulus
-      contact%entrainment_speed = max(abs(surface_speed - 0.5_wp*sliding_speed), least_entrainment*abs(surface_speed))
-      contact%sliding_speed = sliding_speed
+      contact%entrainment_speed = max(abs(surface_speed - 0.5_wp*now%sliding_speed), least_entrainment*abs(surface_speed))
+      contact%sliding_speed = now%sliding_speed
       contact%oil = model%oil
       if (model%shear_law == law_eyring) contact%eyring_stress = model%eyring_stress
       if (allocated(model%ehl)) then
@@ -197,7 +197,7 @@ contains
       if (allocated(model%boundary)) contact%asperity = model%boundary%constants
       if (march%is_warm .and. has_hot_contact(model)) then
          allocate (contact%heat)
-         call set_heat(model, surface_speed, sliding_speed, contact%heat)
+         call set_heat(model, surface_speed, now%sliding_speed, now%films%asperity_rise, contact%heat)
       end if
    end function contact_at
 
@@ -227,7 +227,7 @@ contains
       real(wp) :: length
       integer :: status, k
 
-      contact = contact_at(model, march, position, now%load, now%sliding_speed)
+      contact = contact_at(model, march, position, now)
       call new_ehl_problem(problem, contact, status)
       now%status = status
       converged = status == in_range
@@ -353,7 +353,7 @@ contains
          end if
          now%shear = now%traction
          if (allocated(model%boundary)) then
-            call find_boundary_friction(model%boundary, speed, 0.0_wp, 0.0_wp, friction)
+            call find_boundary_friction(model%boundary, speed, now%films%asperity_rise, 0.0_wp, friction)
             now%boundary_capacity = model%boundary%film_shear_strength*now%films%real_area*model%contact_width &
                & + friction%coefficient*now%films%asperity_share*now%load
             if (has_stick(model)) then

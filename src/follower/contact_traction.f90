@@ -22,7 +22,7 @@ module camroller_contact_traction
    implicit none
    private
 
-   public :: set_traction, follow_traction, largest_shear
+   public :: set_traction, follow_traction, has_hot_boundary, largest_shear
 
    !> Change of ln(viscosity) by a step of the temperature that may be the last: the shear follows it linearly to its square [-]
    real(wp), parameter :: last_step = 1.0e-7_wp

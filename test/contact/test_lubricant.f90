@@ -221,6 +221,14 @@ contains
       ! Below 2 mm^2/s the estimate is refused
       call get_oil(sheet, 573.15_wp, hot, failure)
       if (.not. allocated(failure)) call test_failed(error, "an estimate far outside of its data was made")
+      if (allocated(error)) return
+      ! For an oil of 9e4 mm^2/s the formula is below zero
+      sheet%sae_grade = "20W-50"
+      call get_oil(sheet, 243.15_wp, cold, failure)
+      call check(error, allocated(failure), "an estimate below zero")
+      if (allocated(error)) return
+      call check(error, failure%kind == kind_domain .and. index(failure%message, "is below zero for an oil as thick as") > 0, &
+         & failure%message)
    end subroutine test_so_klaus
 
    subroutine test_coefficient_points(error)

@@ -358,8 +358,7 @@ contains
 
          offset = modulo(x + 0.5_wp*period, period) - 0.5_wp*period
          height = -depth + 3.0_wp*abs(offset)
-         if (modulo(x, two_pi) > 0.3_wp*period .and. modulo(x, two_pi) < 0.7_wp*period) &
-            & height = -1.0_wp + (x - 0.5_wp*period)**2
+         if (abs(modulo(x, two_pi)/period - 0.5_wp) < 0.2_wp) height = -1.0_wp + (x - 0.5_wp*period)**2
       end function valleys
 
    end subroutine test_no_gain

@@ -4,20 +4,20 @@ module test_heat
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, kind_deck
    use camroller_case, only : case_t
-   use camroller_conjunction, only : flash_resistance, film_resistance
+   use camroller_conjunction, only : flash_resistance, film_resistance, warm_oil
    use camroller_contact, only : contact_basis_t, solve_at_speeds
    use camroller_contact_forces, only : contact_t, set_speeds
    use camroller_contact_traction, only : set_traction
    use camroller_heat, only : heat_t, inlet_factor
    use camroller_kinematics, only : rotation_names
-   use camroller_lubricant, only : pressure_law_names
+   use camroller_lubricant, only : get_oil, oil_t, pressure_law_names
    use camroller_model, only : model_t, new_model
    use camroller_remarks, only : hot_film, hot_inlet, remark_lines
    use camroller_result, only : result_t
    use camroller_state, only : state_t, evaluate_state
    use camroller_traction, only : cap_names
    use case_twins, only : leave_constants_out, rescale_case
-   use closeness, only : check_close, check_scaled, expect_error
+   use closeness, only : check_close, check_scaled, expect_error, expect_success
    use lobe_cases, only : run
    use energy_checks, only : check_energy
    use reference_cases, only : thesis_case, skewed_case, make_model, set_point, add_gas_force, add_heat, point_speeds, &
@@ -41,6 +41,7 @@ contains
          new_unittest("results are the same in other units", test_units), &
          new_unittest("a remark names the angles where the inlet factor is beyond its range", test_remark), &
          new_unittest("a remark names rise and error of a film that is hotter than its oil is good for", test_hot_film), &
+         new_unittest("an estimated pressure-viscosity coefficient that rises in the cold is held in a hot film", test_cold_oil), &
          new_unittest("incomplete or contradictory cases with heat are refused", test_refusals) &
          ]
    end subroutine collect_heat
@@ -272,6 +273,43 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_hot_film
+
+   !> A 5W-30 at -30 and at 40 degC: where the coefficient grew with the temperature, so did shear, and a film would have several
+   !> temperatures.
+   subroutine test_cold_oil(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! [K]
+      real(wp), parameter :: temperatures(2) = [243.15_wp, 313.15_wp], rise = 30.0_wp
+      type(case_t) :: case
+      type(model_t) :: model
+      type(oil_t) :: oil, warm
+      type(error_t), allocatable :: failure
+      real(wp) :: change, slope ! [-], [1/K]
+      integer :: i
+
+      case = thesis_case()
+      case%lubricant%temperature_law = "data_sheet"
+      case%lubricant%viscosity_at_40 = 64.0e-6_wp
+      case%lubricant%viscosity_at_100 = 11.0e-6_wp
+      case%lubricant%pressure_viscosity = 0.0_wp
+      allocate (case%heat)
+      do i = 1, size(temperatures)
+         case%operating_point%oil_temperature = temperatures(i)
+         call new_model(model, case, 1, failure)
+         if (.not. allocated(failure)) call get_oil(case%lubricant, temperatures(i) + rise, oil, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call warm_oil(model%heat%hot, model%oil, rise, warm, change, slope)
+         if (i == 1) then
+            call check(error, oil%pressure_viscosity > 1.1_wp*model%oil%pressure_viscosity, "an estimate that does not rise")
+            if (allocated(error)) return
+            call check(error, warm%pressure_viscosity <= model%oil%pressure_viscosity, "it rises in a hot film")
+         else
+            call check_close(error, warm%pressure_viscosity, oil%pressure_viscosity, 1.0e-12_wp, "coefficient of a warm film")
+         end if
+         if (allocated(error)) return
+      end do
+   end subroutine test_cold_oil
 
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error
