@@ -9,7 +9,7 @@ import textwrap
 from matplotlib.patches import Patch
 import numpy as np
 
-from layout import MOST_COLOURS, family, spread_colours, thin_out, wrapped
+from layout import MOST_COLOURS, family, thin_out, wrapped
 from parts import MOST_PANELS, columns_for, wrap_labels
 from quantities import SOURCES, mean_of, source_words
 from units import number
@@ -67,7 +67,7 @@ def _slip(axes, layout):
         if value is None:
             continue
         own = layout.colours_of(entry.file) if layout.is_list else colours
-        tones = spread_colours(len(own)) if files == 1 else family(place, len(own))
+        tones = layout.tones(entry.file, own)
         left = position - 0.42 + (place + 0.5) * width
         bars.append((left, value))
         if np.isfinite(value):
@@ -98,8 +98,9 @@ def _torque(axes, layout, file, labelled):
 
 def file_handles(layout):
     """Legend of the bars of several files."""
-    return [Patch(facecolor=family(place, 3)[1], hatch=FILE_HATCHES[place % len(FILE_HATCHES)], linewidth=0.0, label=layout.titles[number])
-            for place, number in enumerate(layout.files)]
+    tones = [layout.tones(number, [None])[0] if layout.is_one_each() else family(place, 3)[1] for place, number in enumerate(layout.files)]
+    return [Patch(facecolor=tone, hatch=FILE_HATCHES[place % len(FILE_HATCHES)], linewidth=0.0, label=layout.titles[number])
+            for place, (number, tone) in enumerate(zip(layout.files, tones))]
 
 
 def _source_handles(layout):

@@ -3,7 +3,8 @@
 
 Usage: post/campbell.py FILE [--output FIGURE.png] [--dpi DPI]
 
-FILE is a sweep over the speed alone, of a deck with `&spring_surge`, with its series. In the map (after Campbell 1924) the force of the
+FILE is a sweep over the speed alone, of a deck with `&spring_surge`, with its series; cases without are left out. The speed is that of the
+camshaft, also where the deck gives that of an engine's crankshaft. In the map (after Campbell 1924) the force of the
 spring's modes is taken apart into harmonics of the cam: dashed lines are the natural frequencies of the clamped spring, dotted rays
 harmonics; a mode answers where a ray meets its line. Below stand the largest force beside the estimate that a rigid train gives before
 a run, and the speed of seating with its range over the cycles, dots for each turn where a motion does not repeat every turn. Exit code 2
@@ -24,11 +25,12 @@ from matplotlib.patheffects import withStroke  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 import numpy as np  # noqa: E402
 
+from cases import missing_words, status_of  # noqa: E402
 from command import DPI, run, save_figure  # noqa: E402
+from quantities import SPEED, camshaft_speed  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 from turns import turns_of  # noqa: E402
 
-SPEED = "operating_point.speed_rpm"
 SHOWN = 3  # decades of force
 TITLE = 80  # characters of a line above the figure
 RAYS = range(6, 31, 2)
@@ -67,8 +69,13 @@ def draw(result):
         raise ResultError(f"{result.path}: not a sweep over {SPEED} alone")
     if not mode_count(result) or "surge_force" not in result.summary:
         raise ResultError(f"{result.path}: no series of the spring's modes: the deck needs &spring_surge, the sweep series = 'all'")
-    order = np.argsort(result.sweep[SPEED].values)
-    speed = result.sweep[SPEED].values[order]
+    there = np.isfinite(mode_force(result)).all(axis=1)
+    if there.sum() < 2:
+        raise ResultError(f"{result.path}: {there.sum()} of {result.cases} cases has series of the spring's modes; a map needs two")
+    speed = camshaft_speed(result)
+    order = np.argsort(speed)
+    order = order[there[order]]
+    speed = speed[order]
     figure = Figure(figsize=(8.0, 9.6), layout="constrained")
     above, middle, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.2, 1.0, 1.0))
     draw_map(figure, above, result, order, speed)
@@ -76,8 +83,15 @@ def draw(result):
     draw_seating(below, result, order, speed)
     below.set_xlabel("speed of the camshaft [rev/min]")
     below.set_xlim(speed[0], speed[-1])
-    figure.suptitle(textwrap.fill(result.title, TITLE))
+    figure.suptitle("\n".join(textwrap.fill(line, TITLE) for line in (result.title, ", ".join(left_out(result, there))) if line))
     return figure
+
+
+def left_out(result, there):
+    """How many cases are not drawn and why: parts of a sentence."""
+    status = status_of(result)
+    bare = int((~there & (status == 0)).sum())
+    return missing_words(status) + [f"{bare} of {result.cases} cases have no series"] * (bare > 0)
 
 
 def draw_map(figure, axes, result, order, speed):

@@ -119,4 +119,30 @@ def whole_number(low, high):
     return check
 
 
+class ONCE(argparse.Action):
+    """An option that lists names and is given once: of several, argparse would take the last in silence."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        if getattr(namespace, self.dest) is not None:
+            parser.error(f"{option_string} is given more than once: list its names in one, separated by commas")
+        setattr(namespace, self.dest, values)
+
+
+def names_of(text, option):
+    """Names of a list separated by commas; None where the option is not given."""
+    if text is None:
+        return None
+    names = list(dict.fromkeys(filter(None, map(str.strip, text.split(",")))))
+    if not names:
+        raise ResultError(f"{option} names nothing: it takes names separated by commas, not '{text}'")
+    return names
+
+
+def take_over(take, over):
+    """Value of several cases that count as one, the largest where not given; ResultError where none do."""
+    if take and not over:
+        raise ResultError(f"--take {take} is of several cases that count as one: give with --over the keys that they differ in")
+    return take or "largest"
+
+
 DPI = whole_number(20, 1200)

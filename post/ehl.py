@@ -4,7 +4,7 @@ beside the closed formulas.
 
 Usage: post/ehl.py FILE.h5 [RUN.h5] --output FIGURE.png [--map MAP.png] [--case N] [--angles 125 150 180 205]
        FILE.h5 comes from `camroller ehl`, or from `camroller run` where the deck has `&ehl profiles = .true.`;
-       RUN.h5 from `camroller run` on the same cases: its sliding speed, and its film, are drawn beside.
+       RUN.h5 from `camroller run` on the same cases: its sliding speed is drawn beside that of the solved contacts.
        A second lobe shape gets figures of its own, with `_second_lift` in their names.
 """
 
@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import pathlib
 import sys
+import textwrap
 
 import h5py
 import matplotlib
@@ -25,6 +26,7 @@ from matplotlib.figure import Figure  # noqa: E402
 import numpy  # noqa: E402
 
 from command import run, save_figure  # noqa: E402
+from layout import POINT  # noqa: E402
 from read import ResultError, opened, text_of  # noqa: E402
 from units import key_words, unit_words  # noqa: E402
 
@@ -32,6 +34,8 @@ DEGREE = "\N{DEGREE SIGN}"
 MICRO = "\N{MICRO SIGN}"
 REACH = 2.5  # half widths of the widest contact that are shown on both sides
 HEIGHT = 3.0  # largest film of the figures over the largest central film of the profiles
+USUAL = 98  # percentile of films: a contact that is lost or regained has a thick one for a moment
+CHARACTERS = 10  # of a title in an inch
 ANGLE = f"cam angle, full lift at 180{DEGREE} [{DEGREE}]"
 
 
@@ -112,8 +116,7 @@ def draw(data: dict, run: dict | None, angles: list[float], title: str) -> Figur
     for name, style, words in (("film_min", "-", "smallest"), ("film_central", "--", "central")):
         axes[0, 1].plot(turn, 1e6 * data[name], "k" + style, label=f"{words}, solved")
         axes[0, 1].plot(turn, 1e6 * data[name + "_formula"], "C3" + style, label=f"{words}, film law")
-    # A contact that is lost or regained has a thick film for a moment
-    usual = max(1e6 * numpy.nanpercentile(data[name], 98) for name in ("film_central", "film_central_formula"))
+    usual = max(1e6 * numpy.nanpercentile(data[name], USUAL) for name in ("film_central", "film_central_formula"))
     axes[0, 1].set(ylabel=f"film [{MICRO}m]", ylim=(0, 1.2 * usual))
     # Profiles of a run have its sliding speed, and no torques
     is_own = "torque_drive" not in data
@@ -134,7 +137,7 @@ def draw(data: dict, run: dict | None, angles: list[float], title: str) -> Figur
         axis.legend(handles, labels, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     for axis in figure.axes:
         axis.grid(alpha=0.3)
-    figure.suptitle(title, fontsize="medium")
+    figure.suptitle(textwrap.fill(title, int(CHARACTERS * figure.get_figwidth())), fontsize="medium")
     return figure
 
 
@@ -146,26 +149,35 @@ def draw_map(data: dict, title: str) -> Figure:
     place = numpy.linspace(-reach, reach, 401)
     pressure, film = (numpy.array([numpy.interp(place, 1e6 * width * data["x"], row) for width, row in
                                    zip(data["half_width"], data[name])]).T for name in ("pressure", "film"))
-    limits = LogNorm(1e6 * numpy.nanmin(data["film_min"]), HEIGHT * 1e6 * numpy.nanmax(data["film_central"]))
+    limits = LogNorm(1e6 * numpy.nanmin(data["film_min"]), HEIGHT * 1e6 * numpy.nanpercentile(data["film_central"], USUAL))
     pictures = (panels[0].pcolormesh(data["angle"], place, pressure / 1e6, cmap="viridis", rasterized=True),
                 panels[1].pcolormesh(data["angle"], place, 1e6 * film, cmap="cividis", rasterized=True, norm=limits))
     for panel, picture, words in zip(panels, pictures, ("pressure [MPa]", f"film [{MICRO}m]")):
         figure.colorbar(picture, ax=panel, label=words, extend="max" if words.startswith("film") else "neither")
         panel.set(xlabel=ANGLE, xlim=(0, 360), xticks=range(0, 361, 60))
     panels[0].set_ylabel(f"place across the contact, inlet below [{MICRO}m]")
-    figure.suptitle(title, fontsize="medium")
+    figure.suptitle(textwrap.fill(title, int(CHARACTERS * figure.get_figwidth())), fontsize="medium")
     return figure
 
 
 def read_point(path: str, case: int) -> str:
-    """What a sweep varies, with its values in one case; nothing without a sweep."""
+    """Speed and oil temperature, and what a sweep varies, with their values in one case."""
     with opened(path) as file:
+        swept, values = file.get("sweep", {}), file.get("deck/values", {})
         words = []
-        for key, data in file.get("sweep", {}).items():
-            if data.ndim == 1 and data.dtype.kind == "f":
-                unit = text_of(data.attrs.get("units", "1"))
-                words.append(f"{key_words(key, unit)} {data[case]:.6g}" + ("" if unit == "1" else f" {unit_words(unit)}"))
+        for key in (*(key for key in POINT if key in swept or key in values), *(key for key in swept if key not in POINT)):
+            data = swept[key] if key in swept else values[key]
+            value = data[case] if data.ndim else data[()]
+            unit = text_of(data.attrs.get("units", "1"))
+            shown = f"{value:.6g}" if data.dtype.kind == "f" else text_of(value)
+            words.append(f"{key_words(key, unit)} {shown}" + ("" if unit == "1" else f" {unit_words(unit)}"))
         return ", ".join(words)
+
+
+def read_title(path: str) -> str:
+    """Title of the deck; empty where it gives none."""
+    with opened(path) as file:
+        return text_of(file["deck/values/case.title"][()]).strip(" '\"") if "deck/values/case.title" in file else ""
 
 
 def has_second(path: str) -> bool:
@@ -210,13 +222,13 @@ def main(arguments=None) -> int:
         point = read_point(options.file, options.case)
         run_beside = read_run(options.run, options.case) if options.run else None
         if options.run and read_point(options.run, options.case) != point:
-            raise ResultError(f"case {options.case} is {point or 'without a sweep'} in {options.file}, and "
-                              f"{read_point(options.run, options.case) or 'without a sweep'} in {options.run}")
+            raise ResultError(f"case {options.case} is of {point or 'no known point'} in {options.file}, and of "
+                              f"{read_point(options.run, options.case) or 'no known point'} in {options.run}")
         for name, data in lobes.items():
             if numpy.isnan(data["load"]).all():
                 raise ResultError(f"case {options.case} has no solved contacts")
-            title = f"case {options.case}" + (f": {point}" if point else "") + (
-                ", second lobe shape" if name else ", first lobe shape" if has_second(options.file) else "")
+            lobe = "second lobe shape" if name else "first lobe shape" if has_second(options.file) else ""
+            title = ", ".join(filter(None, [read_title(options.file), f"case {options.case}", point, lobe]))
             for target, make in ((options.output, lambda: draw(data, None if name else run_beside, options.angles, title)),
                                  (options.map, lambda: draw_map(data, title))):
                 if target:

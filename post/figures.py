@@ -58,7 +58,7 @@ def curve_figure(curve, layout, whole_cycle):
         if place % columns == 0:
             axes.set_ylabel(f"{curve.title} [{unit_words(curve.unit)}]")
     title = curve.title + (f", the same at each {layout.panel_words()}" if same else "")
-    head(figure, layout, title, legend, layout.shown_words(shown[0], layout.panels if same else panels, shown[2]))
+    head(figure, layout, title, legend, layout.shown_words(shown[0], layout.panels if same else panels, shown[2]) + layout.turn_words())
     return figure
 
 
@@ -109,7 +109,7 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
                         (min(pair[0] for pair in known), max(pair[1] for pair in known)) if known else None)
     for axes in grid[len(places):]:
         axes.remove()
-    head(figure, layout, title, legend, layout.shown_words(*shown))
+    head(figure, layout, title, legend, layout.shown_words(*shown) + layout.turn_words())
     return figure
 
 
@@ -153,7 +153,7 @@ def overview_figure(layout, wanted, parts, needed=()):
     figure = Figure(figsize=(width, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
     _overview_curves(upper, layout, curves, panels, (rows, columns))
-    head(upper, layout, "", legend, _left_out(layout, layout.shown_words(*shown), bars))
+    head(upper, layout, "", legend, _left_out(layout, layout.shown_words(*shown), bars) + layout.turn_words())
     if layout.is_list and len(bars) > 1 and len(layout.files) == 1:
         both_bars(lower, layout)
         return figure

@@ -14,6 +14,7 @@ import sys
 import numpy as np
 
 from command import run
+from layout import POINT
 from read import ResultError, opened
 from units import number
 
@@ -26,6 +27,8 @@ def read(path: str) -> dict[str, np.ndarray]:
     with opened(path, "a file of solved contacts") as file:
         try:
             data = {name: file[f"ehl/{name}"][:] for name in ("x", "film_central")}
+            cases = data["film_central"].shape[0]
+            data |= {key.rpartition(".")[2]: np.full(cases, file["deck/values"][key][()]) for key in POINT if key in file.get("deck/values", {})}
             data |= {key.rpartition(".")[2]: values[:] for key, values in file.get("sweep", {}).items()}
             if "film_rise" in file["ehl"]:
                 data["solved_rise"] = file["ehl/film_rise"][:]

@@ -12,7 +12,8 @@ import re
 from matplotlib import colormaps
 import numpy as np
 
-from quantities import add_derived
+from cases import lost_contact, lost_contact_words, missing_words, status_of
+from quantities import SPEED, add_derived, given_shaft
 from read import ResultError
 from units import WORDS, bare_name, distinct_texts, key_words, unit_words, with_unit
 
@@ -22,7 +23,6 @@ FAMILIES = ["Blues", "Oranges", "Greens", "Purples", "Greys", "Reds"]  # of the 
 LINE_STYLES = ["-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 2.5)), (0, (8, 3))]
 MOST_COLOURS = 7
 MOST_LISTED = 12  # cases of a list in a figure of curves
-SPEED = "operating_point.speed_rpm"  # of the shaft that `engine.given_speed` names, where there is an engine
 TAKEN = {"largest": np.max, "smallest": np.min, "mean": np.mean}  # of the values of several cases that count as one
 POINT = (SPEED, "operating_point.oil_temperature_degC")
 LONGEST_TITLE = 100  # characters of a file's title beside those of others
@@ -78,8 +78,10 @@ class Layout:
             return [self.results[0].title]
         titles = [_shortened(result.title) for result in self.results]
         named = [title if titles.count(title) == 1 else f"{title} ({result.path.name})" for title, result in zip(titles, self.results)]
-        return [", ".join([words, *(self.name(key, _plain(result, key, 0)) for key in points)])
-                for words, result in zip(named, self.results)]
+        shafts = [_shaft(result) for result in self.results]
+        of_shaft = [[f"speed of the {shaft}"] if len(set(shafts)) > 1 else [] for shaft in shafts]
+        return [", ".join([words, *(self.name(key, _plain(result, key, 0)) for key in points), *of_it])
+                for words, result, of_it in zip(named, self.results, of_shaft)]
 
     def entry_words(self, entry):
         """What tells a case from the others: title of its file, value of the first key, those of the panel."""
@@ -212,17 +214,23 @@ class Layout:
         return [entry for entry in self.entries
                 if entry.panel == panel and (colours is None or entry.colour in colours)]
 
+    def is_one_each(self):
+        """Does each file have one colour, as there is one value of the colour key?"""
+        return self.colour_key is None or (len(self.files) > 1 and len(self.shown_colours()) == 1)
+
+    def tones(self, file, values):
+        """Colours of a file for these values of the colour key."""
+        place = self.files.index(file)
+        if self.is_one_each():
+            return [spread_colours(len(self.files))[place]] * len(values)
+        return family(place, len(values)) if len(self.files) > 1 else spread_colours(len(values))
+
     def style(self, entry):
         """Colour, line style and width of the curve of one case."""
-        shown, place = self.shown_colours(), self.files.index(entry.file)
-        if self.colour_key is None or (len(self.files) > 1 and len(shown) == 1):
-            return {"color": spread_colours(len(self.files))[place], "linestyle": line_style(place), "linewidth": 1.4}
-        if len(self.files) > 1:
-            shown = self.colours_of(entry.file)
+        shown = self.colours_of(entry.file) if len(self.files) > 1 else self.shown_colours()
         index = shown.index(entry.colour)
-        if len(self.files) > 1:
-            return {"color": family(place, len(shown))[index], "linestyle": line_style(place), "linewidth": 1.4}
-        return {"color": spread_colours(len(shown))[index], "linestyle": line_style(index), "linewidth": 1.4}
+        return {"color": self.tones(entry.file, shown)[index],
+                "linestyle": line_style(self.files.index(entry.file) if len(self.files) > 1 else index), "linewidth": 1.4}
 
     def name(self, key, value):
         """A value of a swept key as people write it: `300 rev/min`."""
@@ -254,41 +262,29 @@ class Layout:
         """Label of an axis along a swept key."""
         return with_unit(self.short_names[key], self.units[key])
 
+    def turn_words(self):
+        """Of which turns curves and means are, where trains do not repeat every turn."""
+        entries = [entry for entry in self.entries if self._has_result(entry) and "period_cycles" in self.results[entry.file].summary]
+        periods = [(self.results[entry.file].summary["period_cycles"].values[entry.case], self.results[entry.file].turn_count(entry.case))
+                   for entry in entries]
+        without, several = ([turns for turns in periods if is_it(turns[0])] for is_it in (lambda n: n == 0, lambda n: n > 1))
+        words = []
+        for found, what, curves in ((without, "no period", "the last"), (several, "a period of several turns", "one")):
+            counts = {count for _, count in found}
+            where = f" in {len(found)} of {len(self.entries)} cases" if len(found) < len(self.entries) else ""
+            of_all = f"of {counts.pop()} turns" if len(counts) == 1 and 0 not in counts else "of the turns"
+            words += [f"{what}{where}: curves are {curves} {of_all}, means of all"] * bool(found)
+        return words
+
     def common_words(self):
         """What all cases have in common, how many of them have no result, and how many have lost contact."""
         words = [self.name(key, value) for key, value in self.common.items()] if self.is_list else []
         words += [self.name(key, self.panels[0][place]) for place, key in enumerate(self.panel_keys)
                   if len(self.panels) > 1 and not self._differs(place)]
-        failed = sum(case in self.failed[number] for number, chosen in enumerate(self.chosen) for case in chosen)
-        if failed:
-            words.append(f"{failed} of {sum(map(len, self.chosen))} cases have no result")
+        words += missing_words([status for result, chosen in zip(self.results, self.chosen) for status in status_of(result)[chosen]])
         lost_of = [lost_contact(result) for result in self.results]
         lost = sum(lost_of[entry.file][entry.case] for entry in self.entries)
         return words + ([lost_contact_words(lost, len(self.entries))] if lost else [])
-
-
-def not_computed(result):
-    """Cases that a partial file does not have."""
-    status = result.summary.get("status")
-    return set() if status is None else set(np.flatnonzero(np.equal(status.values, -1)).tolist())
-
-
-def not_computed_words(result):
-    """How many cases a partial file does not have; empty where it has all."""
-    count = len(not_computed(result))
-    return f"{count} of {result.cases} cases {'was' if count == 1 else 'were'} not computed" if count else ""
-
-
-def lost_contact_words(count, cases):
-    """In how many cases contact is lost."""
-    return f"contact is lost in {count} of {cases} cases" if cases > 1 else "contact is lost"
-
-
-def lost_contact(result):
-    """For each case: is contact lost for a part of the cycle, by any lobe?"""
-    shares = [share.values for name, share in result.summary.items()
-              if name.endswith("lost_contact_share") and np.shape(share.values) == (result.cases,)]
-    return np.any([share > 0.0 for share in shares], axis=0) if shares else np.zeros(result.cases, dtype=bool)
 
 
 def _example(layout):
@@ -428,10 +424,15 @@ def _texts(values):
 def _short_names(keys, results):
     """Each key in words and without its unit; the whole key where that is not unique."""
     short = {key: key_words(key, _file_unit(key, results)) for key in keys}
-    shafts = {str(result.deck["engine.given_speed"].values) for result in results if "engine.given_speed" in result.deck}
-    if SPEED in short and len(shafts) == 1:
+    shafts = {_shaft(result) for result in results}
+    if SPEED in short and len(shafts) == 1 and any(map(given_shaft, results)):
         short[SPEED] = f"{shafts.pop()} {short[SPEED]}"
     return {key: name if list(short.values()).count(name) == 1 else key for key, name in short.items()}
+
+
+def _shaft(result):
+    """Shaft whose speed is that of a result."""
+    return given_shaft(result) or "camshaft"
 
 
 def _file_unit(key, results):

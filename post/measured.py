@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 import numpy as np
 
 from layout import line_style
+from quantities import given_shaft
 from read import ResultError
 from units import factor, number
 
@@ -241,14 +242,15 @@ def draw_comparison(table, result, cases, comparison):
         angle_name = next(name for name in ANGLES if name in table.columns)
         torque_name = torque_of(table)
         series = "torque_friction" if "friction" in torque_name else "torque_drive"
-        case, angle = cases[0], result.cam_angle
+        case, angle, turn = cases[0], result.cam_angle, 360.0
         if angle_name == "crank angle":
             turns = result.scalar("crank_turns").values[case]
-            angle = np.mod(result.scalar("crank_angle_at_nose").values[case] + turns * (angle - 180.0), 360.0 * turns)
+            turn = 360.0 * turns
+            angle = np.mod(result.scalar("crank_angle_at_nose").values[case] + turns * (angle - 180.0), turn)
         order = np.argsort(angle)
         axes.plot(angle[order], result.series[series].values[case][order] * unit_factor(table, torque_name), color="#08306b",
                   label="computed")
-        axes.plot(table.columns[angle_name], comparison.measured, "o", markersize=4, markerfacecolor="none", color="#d55e00",
+        axes.plot(np.mod(table.columns[angle_name], turn), comparison.measured, "o", markersize=4, markerfacecolor="none", color="#d55e00",
                   label="measured")
         axes.set_xlabel(f"{angle_name}{' from the firing dead centre of cylinder 1' if angle_name == 'crank angle' else ''} [deg]")
         axes.set_ylabel(f"{torque_name} [{comparison.unit}]")
@@ -280,5 +282,5 @@ def _draw_points(axes, result, table, cases, comparison):
         of_it = np.abs(table.columns["temperature"] - temperature) <= SAME * max(1.0, abs(temperature))
         axes.plot(table.columns["speed"][of_it], table.columns[torque_of(table)][of_it], "o", markerfacecolor="none",
                   color=TONES[place % len(TONES)], label=f"measured, {temperature:g} degC" if of_it.any() else None)
-    axes.set_xlabel("speed [rev/min]")
+    axes.set_xlabel(f"{given_shaft(result)} speed [rev/min]".strip())
     axes.set_ylabel(f"mean friction torque [{comparison.unit}]")

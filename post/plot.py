@@ -27,14 +27,14 @@ matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False,
                             "svg.hashsalt": "camroller", "hatch.linewidth": 0.6, "hatch.color": "white"})
 
+from cases import failure_lines, not_computed_words, status_of  # noqa: E402
 from command import DPI, run, save_figure  # noqa: E402
 from figures import FIGURES, WITHOUT_SERIES, draw  # noqa: E402
-from layout import Layout, chosen_cases, not_computed, not_computed_words  # noqa: E402
+from layout import Layout, chosen_cases  # noqa: E402
 from measured import case_words, cases_for, compare, draw_comparison, read_table  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 
-MOST_FAILURES = 5  # told one by one
 NO_DATE = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 
 
@@ -44,13 +44,16 @@ def main(arguments=None):
     try:
         results = [read_result(path) for path in options.files]
         if options.measured:
+            if options.figure or options.angles:
+                raise ResultError("--measured draws a figure of its own, over the whole turn: leave out --figure and --angles")
             return draw_measured(results[0], options)
         layout = Layout(results, options.cases)
         for line in remarks(results, layout):
             print(line)
         folder = Path(options.output) if options.output else results[0].path.parent
-        names = list(FIGURES) if options.figure == "all" else [options.figure]
-        if not any(result.series for result in results) and options.figure == "all":
+        wanted = options.figure or "all"
+        names = list(FIGURES) if wanted == "all" else [wanted]
+        if not any(result.series for result in results) and wanted == "all":
             print(f"no series in {', '.join(str(result.path) for result in results)}, so no curves are drawn: plot_sweep.py draws "
                   "other summaries, and series = 'all' or 'chosen' in &sweep keeps the series")
             names = list(WITHOUT_SERIES)
@@ -83,14 +86,9 @@ def draw_measured(result, options):
 def remarks(results, layout):
     """Lines on what is not drawn: cases without a result, of many the first only, and without series."""
     for result, chosen in zip(results, layout.chosen):
-        missing = not_computed(result)
-        if missing:
-            yield f"{result.path}: {not_computed_words(result)}"
-        failed = [(case, reason) for case, reason in result.failed_cases() if case in chosen and case not in missing]
-        for case, reason in failed[:MOST_FAILURES]:
-            yield f"{result.path}: case {case} has no result: {reason}".rstrip(": ")
-        if len(failed) > MOST_FAILURES:
-            yield f"{result.path}: {len(failed) - MOST_FAILURES} more cases have no result"
+        for line in (not_computed_words(status_of(result)), *failure_lines(result, chosen)):
+            if line:
+                yield f"{result.path}: {line}"
     yield from layout.remarks
 
 
@@ -101,7 +99,7 @@ def parser():
     made.add_argument("files", nargs="+", metavar="FILE", help="result file; several are drawn over each other")
     made.add_argument("--output", metavar="DIR", help="folder for the figures (default: that of the first file)")
     made.add_argument("--format", choices=list(NO_DATE), default="png", help="kind of file (default: png)")
-    made.add_argument("--figure", choices=["all", *FIGURES], default="all", metavar="NAME",
+    made.add_argument("--figure", choices=["all", *FIGURES], metavar="NAME",
                       help="which figure: all (default), " + ", ".join(FIGURES))
     made.add_argument("--cases", action="append", default=[], metavar="WHICH",
                       help="only these cases: numbers from 0 as in 0,2-4, values as in speed_rpm=300,600 or a range "

@@ -23,11 +23,12 @@ import numpy as np  # noqa: E402
 
 from command import run, save_figure  # noqa: E402
 from read import ResultError, opened, text_columns  # noqa: E402
+from units import number  # noqa: E402
 
 QUANTITIES = {"mean_torque": "mean friction torque", "minimum_film": "smallest film", "slip": "slip per turn"}
 COLUMNS = ["case", "run", "effect", "status", "time_share", "is_left_out",
            *(prefix + name for name in QUANTITIES for prefix in ("change_", "estimate_"))]
-FLOOR = 1e-7  # changes below are drawn there: the accuracy of the runs
+FLOOR = 1e-7  # changes below are drawn there, and the figure says so: the accuracy of the runs
 UNKNOWN = 1e10  # estimates from here on mean that nothing can be said
 FAR = 5.0  # widths of the middle half of all shares of time: what is farther from that half was disturbed by the machine, and is not shown
 
@@ -81,7 +82,7 @@ def draw(audit):
                       label="expected at most")
         axes.set(xscale="log", title=title, xlabel="relative change [-]", xlim=(0.5 * FLOOR, None))
         axes.grid(True, axis="x", which="major", linewidth=0.3)
-    words = [*left_out(audit), *unknown_words(audit), *_draw_times(panels[3], audit, places)]
+    words = [*left_out(audit), *unknown_words(audit), *floor_words(audit), *_draw_times(panels[3], audit, places)]
     panels[0].set_yticks(places, [name.replace("_", " ") for name in names])
     marks = {label: handle for axes in (panels[0], panels[3]) for handle, label in zip(*axes.get_legend_handles_labels())}
     figure.legend(marks.values(), marks, loc="outside lower center", ncols=len(marks), frameon=False)
@@ -95,6 +96,13 @@ def unknown_words(audit):
     estimates = [audit["estimate_" + quantity][without(audit, name)] for name in effects(audit) for quantity in QUANTITIES]
     unknown = sum(int((estimate >= UNKNOWN).sum()) for estimate in estimates)
     return [f"{unknown} of {sum(map(len, estimates))} changes have no bound beforehand"] if unknown else []
+
+
+def floor_words(audit):
+    """How many changes are drawn at the lower end of the axes, as they are below it: parts of a sentence."""
+    changes = np.concatenate([np.abs(audit["change_" + quantity][without(audit, name)]) for name in effects(audit) for quantity in QUANTITIES])
+    small = int((changes < FLOOR).sum())
+    return [f"{small} of {changes.size} changes are below {FLOOR:g} and drawn there"] if small else []
 
 
 def _draw_times(axes, audit, places):
@@ -123,14 +131,18 @@ def table(audit):
         cells = [_span(audit["change_" + quantity][rows]) for quantity in QUANTITIES]
         needed = int((audit["is_left_out"][rows] == 0).sum())
         lines.append(f"| {name.replace('_', ' ')} | " + " | ".join(cells)
-                     + f" | {100 * np.median(audit['time_share'][rows]):.0f} % | {needed} of {rows.sum()} |")
+                     + f" | {number(round(100 * np.median(audit['time_share'][rows])))} % | {needed} of {rows.sum()} |")
     return "\n".join([*lines, *([""] if left_out(audit) else []), *(f"{words}." for words in left_out(audit))])
 
 
 def _span(values):
     if not np.abs(values).max() > 0.0:
         return "0"
-    return f"{100 * values.min():.2g} to {100 * values.max():.2g} %"
+    return f"{_per_cent(values.min())} to {_per_cent(values.max())} %"
+
+
+def _per_cent(part):
+    return number(100.0 * part, 2)
 
 
 def main(arguments=None):

@@ -33,8 +33,10 @@ from matplotlib.patheffects import withStroke  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 import numpy as np  # noqa: E402
 
-from command import DPI, run, save_figure  # noqa: E402
-from layout import SPEED, TAKEN, groups_over, is_one_of, key_meant, lost_contact, lost_contact_words, thin_out  # noqa: E402
+from cases import lost_contact, lost_contact_words, missing_words, status_of  # noqa: E402
+from command import DPI, ONCE, names_of, run, save_figure, take_over  # noqa: E402
+from layout import TAKEN, groups_over, is_one_of, key_meant, thin_out  # noqa: E402
+from quantities import SPEED, given_shaft  # noqa: E402
 from read import ResultError, fills_grid, read_result  # noqa: E402
 from units import distinct_texts, fitting_unit, key_words, number, shaft_words, unit_words, with_unit  # noqa: E402
 
@@ -66,15 +68,16 @@ class Sweep:
         self.keys, self.quantities, self.words, self.logarithmic, self.remarks = {}, {}, {}, set(), []
         result = read_result(path, with_series=False)
         result.need_results()
-        self.title, self.take, shaft = result.title, take, _words(result, "engine.given_speed")
+        self.title, self.take, shaft = result.title, take, given_shaft(result)
         gone, groups = groups_over(result, range(result.cases), over)
         self.groups = groups if gone else None
         if gone:
             names = ", ".join(key.split(".")[-1] for key in gone)
             self.remarks.append(f"{take} over {names}, {result.cases} cases make {len(groups)}")
-        failed = np.zeros(result.cases)
-        failed[[case for case, _ in result.failed_cases()]] = 1
-        self.failed = np.array([failed[group].max() for group in groups])
+        of_cases = status_of(result)
+        # of a group the error of a case, else that a case was not computed
+        self.status = [int(of_cases[group].max() if (of_cases[group] > 0).any() else of_cases[group].min()) for group in groups]
+        self.failed = np.not_equal(self.status, 0)
         lost = lost_contact(result)
         self.lost = np.array([lost[group].any() for group in groups])
         for key, quantity in result.sweep.items():
@@ -160,6 +163,10 @@ class Sweep:
         """Cases that lose contact and have a value of one of these quantities."""
         return self.lost & np.any([np.isfinite(self.quantities[name][0]) for name in names], axis=0)
 
+    def has_value(self):
+        """Cases that have a value of one of the quantities, as the conditions leave them."""
+        return np.any([np.isfinite(values) for values, _ in self.quantities.values()], axis=0)
+
     def column(self, name):
         """Values and label of a key or a quantity."""
         return self.keys.get(name) or self.quantities[name]
@@ -194,7 +201,7 @@ def suitable_figure(sweep):
 
 
 def draw_map(sweep):
-    """One map for each quantity; where more than two keys vary, the others have their first value."""
+    """One map for each quantity; where more than two keys vary, the others have one value, the first with a result."""
     lengths = sweep.lengths()
     if len(lengths) < 2 or not sweep.is_grid():
         raise ResultError("a map needs a grid over two keys; see --figure")
@@ -229,7 +236,7 @@ def draw_map(sweep):
 
 
 def draw_curves(sweep):
-    """The longest key of numbers along the axis, the next key as curves; the others have their first value."""
+    """The longest key of numbers along the axis, the next key as curves; the others have one value, the first with a result."""
     if not sweep.is_grid():
         raise ResultError("curves need a grid; see --figure")
     lengths = sweep.lengths()
@@ -302,8 +309,7 @@ def draw_parallel(sweep):
         ends.append((values.min(), values.max()))
         values = np.log(values) if name in sweep.logarithmic else values
         low, high = values.min(), values.max()
-        is_same = high - low <= ROUNDING * max(abs(low), abs(high))
-        scaled.append(np.full(len(values), 0.5) if is_same else (values - low) / (high - low))
+        scaled.append(np.full(len(values), 0.5) if _about(values) else (values - low) / (high - low))
     scaled = np.array(scaled)
     figure = Figure(figsize=(1.6 * len(names) + 1.0, 4.4), layout="constrained")
     axes = figure.subplots()
@@ -319,6 +325,10 @@ def draw_parallel(sweep):
         axes.plot([place, place], [0, 1], color="black", linewidth=0.8)
         for height, value, side in ((-0.02, low, "top"), (1.02, high, "bottom")):
             axes.text(place, height, sweep.label_value(name, value), ha="center", va=side, fontsize=7)
+        if name in sweep.words and high - low < MOST_WORDS:
+            for value in range(int(low) + 1, int(high)):
+                axes.annotate(sweep.label_value(name, value), (place, (value - low) / (high - low)), (4, 0), textcoords="offset points",
+                              va="center", fontsize=7, path_effects=[withStroke(linewidth=2.0, foreground="white")])
     labels = [sweep.column(name)[1].replace(" [", "\n[") + "\nlogarithmic" * (name in sweep.logarithmic) for name in names]
     axes.set_xticks(range(len(names)), labels, fontsize=7)
     axes.tick_params(axis="x", length=0, pad=4)
@@ -333,19 +343,40 @@ def _colour_scale(sweep, name):
     """Colours over the values of a key or a quantity."""
     values = sweep.column(name)[0]
     values = values[np.isfinite(values)]
-    return (LogNorm if name in sweep.logarithmic else Normalize)(values.min(initial=np.inf), values.max(initial=-np.inf)) \
-        if values.size else None
+    if not values.size:
+        return None
+    return (LogNorm if name in sweep.logarithmic else Normalize)(*(_about(values) or (values.min(), values.max())))
+
+
+def _about(values):
+    """Range about values that are the same but for rounding; None of others."""
+    known = values[np.isfinite(values)]
+    low, high = known.min(), known.max()
+    if high - low > ROUNDING * max(abs(low), abs(high)):
+        return None
+    room = 0.05 * abs(low) or 1.0
+    return low - room, high + room
 
 
 def _row(figure, count):
     return figure.subplots(1, count, squeeze=False)[0]
 
 
-def _where_others_are_first(sweep, names):
-    chosen = np.ones(len(sweep.failed), dtype=bool)
+def _values_of_others(sweep, shown):
+    """The one value of each key that a figure does not show: the first, as the file lists them, with which a case has a value."""
+    there, found = sweep.has_value(), {}
     for key, (values, _) in sweep.keys.items():
-        if key not in names:
-            chosen &= values == values[0]
+        if key not in shown:
+            found[key] = values[np.isin(values, values[there])][0]
+            there &= values == found[key]
+    return found
+
+
+def _where_others_are_first(sweep, shown):
+    """Cases whose other keys have that value."""
+    chosen = np.ones(len(sweep.failed), dtype=bool)
+    for key, value in _values_of_others(sweep, shown).items():
+        chosen &= sweep.keys[key][0] == value
     return chosen
 
 
@@ -371,7 +402,11 @@ def _sideways(sweep, key):
 def _name_axis(sweep, axes, side, name):
     values, label = sweep.column(name)
     getattr(axes, f"set_{side}label")(label)
-    if name in sweep.logarithmic:
+    drawn = getattr(axes.dataLim, f"interval{side}")
+    about = _about(drawn) if name not in sweep.words and np.isfinite(drawn).all() else None
+    if about:
+        getattr(axes, f"set_{side}lim")(*about)
+    elif name in sweep.logarithmic:
         getattr(axes, f"set_{side}scale")("log")
         ticks = getattr(axes, f"{side}axis")
         few = np.nanmax(values) < 30 * np.nanmin(values)
@@ -392,11 +427,8 @@ def _name_axis(sweep, axes, side, name):
 
 def _note(figure, sweep, shown, more=(), mark=""):
     """Title of the deck, values of the keys that are not shown, what else is left out, cases without a result and with lost contact."""
-    words = [f"{label} = {sweep.label_value(key, values[0])}" for key, (values, label) in sweep.keys.items() if key not in shown]
-    words += [*more, *sweep.remarks]
-    failed = int(sweep.failed.sum())
-    if failed:
-        words.append(f"{failed} of {len(sweep.failed)} cases have no result")
+    words = [f"{sweep.keys[key][1]} = {sweep.label_value(key, value)}" for key, value in _values_of_others(sweep, shown).items()]
+    words += [*more, *sweep.remarks, *missing_words(sweep.status)]
     chosen = _where_others_are_first(sweep, shown)
     lost = int((chosen & sweep.is_drawn_lost(sweep.quantities)).sum())
     if lost:
@@ -409,20 +441,21 @@ def main(arguments=None):
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog="plot_sweep.py", description="draw how a result answers to what a sweep varies")
     parser.add_argument("file", type=Path)
-    parser.add_argument("--quantity", default=QUANTITY, help="names in /summary, separated by commas")
+    parser.add_argument("--quantity", action=ONCE, help=f"names in /summary, separated by commas (default: {QUANTITY})")
     parser.add_argument("--figure", choices=FIGURES, help="what is drawn; what suits the sweep where not given")
     parser.add_argument("--where", action="append", default=[], metavar="CONDITION",
                         help="only cases with this, as 'mean_slip_ratio < 0.01', 'speed_rpm >= 600', speed_rpm=300,600 or law=moes; a "
                              "name in /summary (SI) or a swept key (unit of the deck); given more than once, a case must meet all")
-    parser.add_argument("--over", default="", metavar="KEYS",
+    parser.add_argument("--over", action=ONCE, metavar="KEYS",
                         help="swept keys, separated by commas: cases that differ in them only count as one")
-    parser.add_argument("--take", choices=TAKEN, default="largest", help="value of several cases that count as one (default: largest)")
+    parser.add_argument("--take", choices=TAKEN, help="with --over: value of several cases that count as one (default: largest)")
     parser.add_argument("--output", type=Path, help="folder; that of the file where not given")
     parser.add_argument("--dpi", type=DPI, default=150)
     options = parser.parse_args(arguments)
     try:
-        sweep = Sweep(options.file, list(dict.fromkeys(filter(None, options.quantity.replace(" ", "").split(",")))) or [QUANTITY],
-                      options.where, list(filter(None, options.over.replace(" ", "").split(","))), options.take)
+        over = names_of(options.over, "--over") or ()
+        sweep = Sweep(options.file, names_of(options.quantity, "--quantity") or [QUANTITY], options.where, over,
+                      take_over(options.take, over))
         name = options.figure or suitable_figure(sweep)
         figure = {"map": draw_map, "curves": draw_curves, "scatter": draw_scatter, "parallel": draw_parallel}[name](sweep)
         target = (options.output or options.file.parent) / f"{options.file.stem}_{name}.png"

@@ -7,6 +7,8 @@ import numpy as np
 from read import Quantity, ResultError
 from units import factor
 
+SPEED = "operating_point.speed_rpm"  # of the shaft that `engine.given_speed` names, where there is an engine
+
 
 class Missing(Exception):
     """No file holds the series that a figure needs."""
@@ -94,7 +96,10 @@ LARGEST_SHEAR = 0.300283  # below a line contact over its peak pressure, at 0.78
 
 
 def add_derived(result):
-    """Add to a result what follows from its series: friction coefficient, load share of asperities, valve acceleration, wear."""
+    """Add to a result what follows from its series: friction coefficient, load share of asperities, valve acceleration, wear.
+
+    The acceleration is a central difference of the valve's speed, which follows the lift of a rigid train; a flexible one has its own.
+    """
     series = result.series
     if "contact_load" not in series:
         return
@@ -106,13 +111,22 @@ def add_derived(result):
     if "asperity_load" in series:
         series["asperity_load_share"] = Quantity(series["asperity_load"].values / touching, "1", "part of the load on asperities")
     _add_wear(series)
-    power, torque = (result.summary.get(name) for name in ("power_friction", "mean_torque_friction"))
-    if "valve_velocity" in series and power is not None and np.shape(power.values) == (result.cases,):
-        with np.errstate(invalid="ignore", divide="ignore"):
-            speed = power.values / torque.values  # of the camshaft [rad/s]
+    if "valve_velocity" in series and result.value_of(SPEED, 0) is not None:
         values = series["valve_velocity"].values
         slope = (np.roll(values, -1, axis=1) - np.roll(values, 1, axis=1)) / np.radians(2.0 * 360.0 / values.shape[1])
-        series["valve_acceleration"] = Quantity(slope * speed[:, None], "m/s2", "acceleration of the valve")
+        speed = camshaft_speed(result) * np.pi / 30.0  # [rad/s]
+        series.setdefault("valve_acceleration", Quantity(slope * speed[:, None], "m/s2", "acceleration of the valve"))
+
+
+def given_shaft(result):
+    """Shaft whose speed the deck gives; empty without an engine, where there is none but the camshaft."""
+    return str(result.value_of("engine.given_speed", 0) or "")
+
+
+def camshaft_speed(result):
+    """Speed of the camshaft in each case [rev/min], whichever shaft's the deck gives; not-a-number for a case that does not tell."""
+    speed = np.array([result.value_of(SPEED, case) for case in range(result.cases)], dtype=float)
+    return speed / result.scalar("crank_turns").values if given_shaft(result) == "crankshaft" else speed
 
 
 def _add_wear(series):
@@ -127,7 +141,8 @@ def _add_wear(series):
     if peak is None:
         return
     # A case with &wear has this and the next one itself
-    series.setdefault("subsurface_shear_stress", Quantity(LARGEST_SHEAR * peak.values, "Pa",
+    largest = series.get("axial_pressure_max", peak)  # along the roller, where the deck gives its profile
+    series.setdefault("subsurface_shear_stress", Quantity(LARGEST_SHEAR * largest.values, "Pa",
                                                           "largest shear stress below the surface, without traction"))
     if half is None or slide is None or speed is None:
         return

@@ -86,6 +86,11 @@ class Result:
             return None
         return value.item() if isinstance(value, (np.generic, np.ndarray)) else value
 
+    def turn_count(self, case):
+        """Number of turns of a case that are listed one by one; 0 where none is."""
+        listed = [np.isfinite(measure.values[case]) for measure in self.turns.values()]
+        return int(np.max(np.nonzero(np.any(listed, axis=0))[0], initial=-1)) + 1 if listed else 0
+
     def failed_cases(self):
         """Cases without a result, each with the reason that the file gives."""
         status = self.summary.get("status")

@@ -20,12 +20,13 @@ matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "camroller",
                             "hatch.linewidth": 0.6, "hatch.color": "white"})
 
+from cases import failure_lines, failures, missing_words, status_of  # noqa: E402
 from command import run, words_as_they_are, write_text  # noqa: E402
 from figures import draw  # noqa: E402
 from layout import Layout  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, opened, read_result, text_of  # noqa: E402
-from table import column_of, swept_texts, usual_columns, worst_of_lobes  # noqa: E402
+from table import column_of, keys_of, swept_texts, usual_columns, worst_of_lobes  # noqa: E402
 from units import key_words, unit_words, with_unit  # noqa: E402
 
 SHOWN = ["mean_torque", "mean_slip", "pressure", "film_ratio", "friction_sources", "drive_torque", "slip",
@@ -62,7 +63,7 @@ def parser():
 def page_of(result):
     """The whole page."""
     parts = [("Results", table_of(result)), ("Remarks", remarks_of(result)), ("Figures", figures_of(result)),
-             ("What was assumed", defaults_of(result)), ("Deck", f"<pre>{html.escape(result.deck_text)}</pre>"),
+             ("What was assumed", defaults_of(result)), ("Deck", deck_of(result)),
              ("How it was made", facts_of(result))]
     body = "\n".join(f"<h2>{title}</h2>\n{text}" for title, text in parts if text)
     title = html.escape(result.title)
@@ -84,14 +85,15 @@ def table_of(result):
     cases = list(range(min(result.cases, MOST_ROWS)))
     failed = {case for case, _ in result.failed_cases()}
     cases = [case for case in cases if case not in failed]
-    columns = [[with_unit(key_words(key, quantity.units), unit_words(quantity.units)), *swept_texts(result, key, cases)]
-               for key, quantity in result.sweep.items()]
+    units = {key: (result.sweep[key] if key in result.sweep else result.deck[key]).units for key in keys_of(result)}
+    columns = [[with_unit(key_words(key, unit), unit_words(unit)), *swept_texts(result, key, cases)] for key, unit in units.items()]
     worst, line = worst_of_lobes(result)
     columns += [column_of(worst, name, [[case] for case in cases], '', words, unit) for name, words, unit in usual_columns(result)]
     text = rows_to_html([column[0] for column in columns], list(zip(*(column[1:] for column in columns))))
     text += f"<p>{line}</p>" if line else ""
     if failed:
-        text += f"<p>{len(failed)} of {result.cases} cases have no result; the reasons are among the remarks.</p>"
+        reasons = "; the reasons are among the remarks" if failures(result, range(result.cases)) else ""
+        text += f"<p>{', '.join(missing_words(status_of(result)))}{reasons}.</p>"
     return text + (f"<p>and {result.cases - MOST_ROWS} more cases</p>" if result.cases > MOST_ROWS else "")
 
 
@@ -110,8 +112,16 @@ def remarks_of(result):
         case, line = next(iter(found.items()))
         where = "" if result.cases == 1 else f"case {case}: " if len(found) == 1 else f"{len(found)} of {result.cases} cases, first case {case}: "
         lines.append(f"<li>{where}{html.escape(line)}</li>")
-    lines += [f"<li>case {case} has no result: {html.escape(reason)}</li>" for case, reason in result.failed_cases()[:MOST_ROWS]]
+    lines += [f"<li>{html.escape(line)}</li>" for line in failure_lines(result, range(result.cases), MOST_ROWS)]
     return f"<ul>\n{chr(10).join(lines)}\n</ul>" if lines else "<p>None.</p>"
+
+
+def deck_of(result):
+    """Text of the deck, below the values that the command gave beside it."""
+    with opened(result.path) as file:
+        beside = [text_of(text) for text in file["deck/overrides"][()]] if "deck/overrides" in file else []
+    given = "<p>Values given beside the deck, in the place of its own:</p>\n<pre>" + html.escape("\n".join(beside)) + "</pre>\n" if beside else ""
+    return f"{given}<pre>{html.escape(result.deck_text)}</pre>"
 
 
 def figures_of(result):

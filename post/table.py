@@ -20,8 +20,9 @@ import sys
 
 import numpy as np
 
-from command import run, whole_number
-from layout import POINT, TAKEN, chosen_cases, groups_over, lost_contact, lost_contact_words, not_computed, not_computed_words, some_numbers
+from cases import failure_lines, lost_contact, lost_contact_words, not_computed, not_computed_words, status_of
+from command import ONCE, names_of, run, take_over, whole_number
+from layout import POINT, TAKEN, chosen_cases, groups_over, some_numbers
 from read import ResultError, read_result
 from units import distinct_texts, factor, fitting_unit, number, shaft_words, with_unit
 
@@ -58,6 +59,11 @@ def usual_columns(result):
         if name in result.summary:
             rows.setdefault(heading, (name, heading, unit))
     return list(rows.values())
+
+
+def keys_of(result) -> list[str]:
+    """Speed and oil temperature where these are not swept, and the swept keys."""
+    return [*(key for key in POINT if key not in result.sweep and result.value_of(key, 0) is not None), *result.sweep]
 
 
 def swept_texts(result, key, cases) -> list[str]:
@@ -125,7 +131,7 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
         raise ResultError('no case is left: see --cases')
     gone, groups = groups_over(result, cases, over)
     shown = groups[:rows]
-    keys = [*(key for key in POINT if key not in result.sweep and result.value_of(key, 0) is not None), *result.sweep]
+    keys = keys_of(result)
     last = [key.split('.')[-1] for key in keys]
     made = [['case', *(str(group[0]) for group in shown)]] if not over and (selections or not result.is_grid()) else []
     made += [[name if last.count(name) == 1 else key, *swept_texts(result, key, [group[0] for group in shown])]
@@ -143,12 +149,11 @@ def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -
 def left_out(result, groups, count, what) -> list[str]:
     """Lines below the table: how many cases a partial file does not have, how many rows are left out, and which of the cases in those
     shown have no result or lose contact."""
-    lines = [f'{not_computed_words(result)}: the file is partial.'] if not_computed(result) else []
+    lines = [f'{not_computed_words(status_of(result))}: the file is partial.'] if not_computed(result) else []
     if count < len(groups):
         lines.append(f'{len(groups) - count} of {len(groups)} {what} are left out: --all prints them, --cases chooses.')
     shown = {case for group in groups[:count] for case in group} - not_computed(result)
-    failed = [(case, reason) for case, reason in result.failed_cases() if case in shown]
-    lines += [f'Case {case} has no result: {reason}'.rstrip(': ') for case, reason in failed]
+    lines += [line[:1].upper() + line[1:] for line in failure_lines(result, shown)]
     return lines + lost_contact_lines(result, sorted(shown))
 
 
@@ -166,21 +171,21 @@ def main(arguments=None) -> int:
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog='table.py', description='print a table of a result file in Markdown')
     parser.add_argument('file')
-    parser.add_argument('--columns', help='scalars of the summary, separated by commas')
+    parser.add_argument('--columns', action=ONCE, help='scalars of the summary, separated by commas')
     parser.add_argument('--cases', action='append', default=[], metavar='WHICH',
                         help='only these cases: numbers from 0 as in 0,2-4, values as in speed_rpm=300,600 or a range as in '
                              'speed_rpm=300:600; given more than once, a case must fit all')
-    parser.add_argument('--over', help='swept keys, separated by commas: cases that differ in them only make one row')
-    parser.add_argument('--take', choices=[*TAKEN, RANGE], default='largest', help='value of a row of several cases (default: largest)')
+    parser.add_argument('--over', action=ONCE, help='swept keys, separated by commas: cases that differ in them only make one row')
+    parser.add_argument('--take', choices=[*TAKEN, RANGE], help='with --over: value of a row of several cases (default: largest)')
     limit = parser.add_mutually_exclusive_group()
     limit.add_argument('--rows', type=whole_number(1, 10**9), default=MOST_ROWS, help=f'most rows (default: {MOST_ROWS})')
     limit.add_argument('--all', action='store_true', help='all rows')
     options = parser.parse_args(arguments)
     try:
-        columns = [name.strip() for name in options.columns.split(',') if name.strip()] if options.columns else None
+        columns = names_of(options.columns, '--columns')
+        over = names_of(options.over, '--over') or ()
         result = read_result(options.file, with_series=False)
-        print(table_of(result, columns, options.cases, None if options.all else options.rows,
-                       options.over.split(',') if options.over else (), options.take))
+        print(table_of(result, columns, options.cases, None if options.all else options.rows, over, take_over(options.take, over)))
     except ResultError as problem:
         print(f'table.py: {problem}', file=sys.stderr)
         return 2

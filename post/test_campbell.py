@@ -97,6 +97,33 @@ def test_a_valve_that_never_meets_its_seat_has_no_speed_of_seating(tmp_path):
     campbell.main([str(path)])
 
 
+def test_harmonics_are_those_of_the_camshaft_where_the_deck_gives_the_speed_of_the_crankshaft(tmp_path):
+    path = write_sweep(tmp_path / "a.h5", [1e-5])
+    with h5py.File(path, "a") as file:
+        file["deck/values/engine.given_speed"], file["summary/crank_turns"] = "crankshaft", [2.0] * 3
+    figure = campbell.draw(read_result(path))
+    image, heights = figure.axes[0].collections[0].get_array().reshape(400, 3), np.linspace(0.0, 1.15 * 416.666667, 400)
+    for case, speed in enumerate(SPEEDS):
+        assert heights[image[:, case].argmax()] == pytest.approx(10 * speed / 2 / 60.0, abs=1.5)
+    assert figure.axes[2].get_xlim() == (300.0, 900.0) and figure.axes[2].get_xlabel() == "speed of the camshaft [rev/min]"
+
+
+def test_cases_without_series_are_left_out_and_counted(tmp_path, capsys):
+    path = write_sweep(tmp_path / "a.h5", [1e-5])
+    with h5py.File(path, "a") as file:
+        file["series/spring_mode_1"][1] = np.nan
+    assert campbell.draw(read_result(path)).get_suptitle() == "Made up\n1 of 3 cases have no series"
+    with h5py.File(path, "a") as file:
+        file["summary/status"][1] = 5
+    figure = campbell.draw(read_result(path))
+    assert figure.get_suptitle() == "Made up\n1 of 3 cases have no result" and list(figure.axes[1].lines[0].get_xdata()) == [600.0, 1800.0]
+    with h5py.File(path, "a") as file:
+        file["summary/status"][1:] = -1
+        file["series/spring_mode_1"][2] = np.nan
+    assert campbell.main([str(path)]) == 2
+    assert "1 of 3 cases has series of the spring's modes; a map needs two" in capsys.readouterr().err
+
+
 def test_figure_is_written_and_other_sweeps_are_refused(tmp_path, capsys):
     path = write_sweep(tmp_path / "a.h5", [1e-5])
     assert campbell.main([str(path)]) == 0 and (tmp_path / "a_campbell.png").stat().st_size > 10_000

@@ -422,6 +422,7 @@ def test_torques_of_a_shaft_whose_other_cams_are_at_work_are_shown_for_the_whole
     with h5py.File(path, "a") as file:
         file["deck/values/engine.camshafts"] = 2
         file["deck/values/engine.given_speed"] = "crankshaft"
+        file["summary/crank_turns"] = np.full(9, 2.0)
     layout = Layout([read_result(path)])
     assert "torques of 2 camshafts with 2 cams each" in title(draw("overview", layout))
 

@@ -86,6 +86,37 @@ def test_a_run_of_another_point_is_refused(path, tmp_path, capsys):
     assert not list(tmp_path.glob("*.png"))
 
 
+def at_point(path, **values):
+    """The file with values of its deck."""
+    with h5py.File(path, "a") as file:
+        for key, value in values.items():
+            file[f"deck/values/operating_point.{key}"] = value
+            file[f"deck/values/operating_point.{key}"].attrs["units"] = {"speed_rpm": "rpm", "oil_temperature_degC": "degC"}[key]
+        file["deck/values/case.title"] = "Made up"
+        file["series/cam_angle"] = file["ehl/angle"][:]
+        file["series/sliding_speed"] = file["ehl/sliding_speed"][:]
+    return path
+
+
+def test_a_run_of_another_point_is_refused_where_nothing_is_swept(path, tmp_path, capsys, monkeypatch):
+    beside = tmp_path / "run.h5"
+    beside.write_bytes(path.read_bytes())
+    arguments = [str(at_point(path, speed_rpm=300.0, oil_temperature_degC=60.0)), str(at_point(beside, speed_rpm=300.0, oil_temperature_degC=90.0)),
+                 "--output", str(tmp_path / "a.png")]
+    assert ehl.main(arguments) == 2
+    assert "oil temperature 60 °C" in (told := capsys.readouterr().err) and "oil temperature 90 °C" in told
+    figures = []
+    monkeypatch.setattr(ehl, "save_figure", lambda figure, *_, **__: figures.append(figure))
+    assert ehl.main([arguments[0], arguments[0], *arguments[2:]]) == 0
+    assert figures[0].get_suptitle() == "Made up, case 0, speed 300 rev/min, oil temperature 60 °C, first lobe shape"
+
+
+def test_a_map_shows_films_of_contacts_beside_a_thick_one_where_contact_is_lost(path):
+    data = ehl.read(path, 0)[""]
+    data["film_central"][0] = 4e-4
+    assert ehl.draw_map(data, "").axes[1].collections[0].norm.vmax == pytest.approx(0.6)
+
+
 def test_slip_of_profiles_is_called_that_of_their_run(path):
     data = ehl.read(path, 0)[""]
     for names, words in (({"torque_drive"}, "of the run"), (set(), "solved contact")):

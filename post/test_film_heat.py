@@ -1,5 +1,6 @@
 """What heat does to solved contacts, from made-up ones."""
 
+import h5py
 import numpy as np
 import pytest
 
@@ -25,6 +26,18 @@ def test_rows_hold_what_contacts_tell():
     solved, lost = film_heat.rows(*made_up())
     assert solved == ["300", "", "3", "2", "9", "5.0, 10.0", "20.0, 20.0"]
     assert lost == ["600", "", "3", "-", "-", "5.0, 10.0", "-"]
+
+
+def test_speed_and_oil_that_are_not_swept_are_those_of_the_deck(tmp_path):
+    heated, _ = made_up()
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["ehl/x"], file["ehl/film_central"], file["ehl/film_rise"] = heated["x"], heated["film_central"], heated["solved_rise"]
+        for name in ("film_temperature_rise", "inlet_heat_factor"):
+            file[f"series/{name}"] = heated[name]
+        file["sweep/operating_point.speed_rpm"] = [300.0, 600.0]
+        file["deck/values/operating_point.speed_rpm"], file["deck/values/operating_point.oil_temperature_degC"] = 900.0, 60.0
+    data = film_heat.read(tmp_path / "a.h5")
+    assert [row[:2] for row in film_heat.rows(data, data)] == [["300", "60"], ["600", "60"]]
 
 
 def test_files_that_do_not_belong_together_are_refused():

@@ -58,6 +58,32 @@ def test_between_the_points_of_the_series_the_line_counts(nine, tmp_path):
     assert compare(read_table(table), result, [0]).differences == pytest.approx([0.0], abs=1e-9)
 
 
+@pytest.mark.parametrize("angle, turn", [("cam", 360.0), ("crank", 720.0)])
+def test_points_outside_of_a_turn_are_drawn_on_the_curve(nine, tmp_path, angle, turn):
+    with h5py.File(nine, "a") as file:
+        file["summary/crank_turns"], file["summary/crank_angle_at_nose"] = np.full(9, 2.0), np.full(9, 470.0)
+    table = read_table(write_table(tmp_path / "rig.csv", f"{angle} angle [deg], torque [N m]", [(-90.0, 1.0), (10.0, 2.0), (turn + 30.0, 3.0)]))
+    result = read_result(nine)
+    axes = draw_comparison(table, result, [0], compare(table, result, [0])).axes[0]
+    drawn = next(line for line in axes.lines if line.get_label() == "measured")
+    assert list(drawn.get_xdata()) == [turn - 90.0, 10.0, 30.0] and list(drawn.get_ydata()) == [1.0, 2.0, 3.0]
+
+
+def test_the_speed_of_measured_points_names_its_shaft(nine, tmp_path):
+    with h5py.File(nine, "a") as file:
+        file["deck/values/engine.given_speed"], file["summary/crank_turns"] = "crankshaft", np.full(9, 2.0)
+    table = read_table(write_table(tmp_path / "rig.csv", "speed [rpm], temperature [degC], mean torque [N mm]", [(300.0, 60.0, 30.0)]))
+    result = read_result(nine)
+    assert draw_comparison(table, result, range(9), compare(table, result, range(9))).axes[0].get_xlabel() == "crankshaft speed [rev/min]"
+
+
+@pytest.mark.parametrize("option", [["--figure", "slip"], ["--angles", "cycle"]])
+def test_options_of_other_figures_beside_measured_points_are_refused(nine, tmp_path, capsys, option):
+    table = write_table(tmp_path / "rig.csv", "cam angle [deg], torque [N m]", [(180.0, 1.0)])
+    assert main([str(nine), "--measured", str(table), *option]) == 2
+    assert "leave out --figure and --angles" in capsys.readouterr().err
+
+
 def test_angles_in_radians_and_a_mark_of_byte_order_change_nothing(nine, tmp_path, capsys):
     result = read_result(nine)
     table = write_table(tmp_path / "rig.csv", "cam angle [rad], torque [N m]", [(np.pi, 1.0)])

@@ -49,6 +49,14 @@ def test_cases_without_a_result_are_counted(path, tmp_path, capsys, monkeypatch)
     assert figures[0].get_suptitle() == "1 of 2 cases has no result, 3 of 6 changes have no bound beforehand"
 
 
+def test_small_and_huge_changes_are_plain_numbers_and_none_is_drawn_as_one(path):
+    audit = read_audit(path)
+    audit["change_mean_torque"][:] = [0, -1.0, 0, 0, 1.4e3, 0]
+    audit["time_share"][:] = [0, -0.003, 0, 0, -0.003, 0]
+    assert table(audit).splitlines()[2].startswith("| asperity | -100 to 140000 % |") and "| 0 % | 2 of 2 |" in table(audit)
+    assert "1 of 9 changes are below 1e-07 and drawn there" in plot_audit.draw(audit).get_suptitle()
+
+
 def test_a_time_that_the_machine_disturbed_does_not_hide_the_others(path):
     audit = {name: np.tile(values, 4) for name, values in read_audit(path).items()}
     figure = plot_audit.draw(audit)

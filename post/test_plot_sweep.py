@@ -271,3 +271,40 @@ def test_a_limit_that_is_never_reached_is_told_from_no_result(grid, capsys):
     assert "no case has a finite value of margin; infinity stands for a limit" in capsys.readouterr().err
     assert main([str(grid), "--quantity", "nothing"]) == 2
     assert "no case has a value of nothing\n" in capsys.readouterr().err
+
+
+def test_keys_that_are_not_shown_have_a_value_that_the_conditions_leave(grid):
+    """The first value of the file is that of another law, which the condition leaves out."""
+    sweep = Sweep(grid, ["mean_torque_drive"], ["law=pan_hamrock"])
+    for draw in (draw_map, draw_curves):
+        figure = draw(sweep)
+        assert "film law = pan hamrock" in figure.get_suptitle().replace("\n", " ")
+    assert np.ma.count(draw_map(sweep).axes[0].collections[0].get_array()) == 90
+    assert all(np.isfinite(line.get_ydata()).any() for line in draw_curves(sweep).axes[0].lines)
+
+
+def test_a_partial_sweep_says_what_was_not_computed(grid):
+    with h5py.File(grid, "a") as file:
+        file["summary/status"][6:10] = -1
+        file["summary/mean_torque_drive"][6:10] = np.nan
+    words = draw_map(Sweep(grid, ["mean_torque_drive"])).get_suptitle().replace("\n", " ")
+    assert "4 of 180 cases were not computed, 1 of 180 cases have no result" in words
+
+
+def test_an_axis_of_words_names_all_of_them(tmp_path):
+    laws = ["dowson_higginson", "masjedi_khonsari", "moes", "pan_hamrock"]
+    path = write(tmp_path / "laws.h5", {"film.law": (np.array(laws, dtype=h5py.string_dtype()).astype(object), "1")}, [1.0, 2.0, 3.0, 4.0])
+    texts = {text.get_text(): text for text in draw_parallel(Sweep(path, ["mean_torque_drive"])).axes[0].texts}
+    assert {law.replace("_", " ") for law in laws} <= set(texts)
+    assert [texts[law].xy[1] for law in ("masjedi khonsari", "moes")] == pytest.approx([1 / 3, 2 / 3])
+
+
+def test_values_that_are_the_same_but_for_rounding_have_an_axis_about_them(tmp_path):
+    sweep = Sweep(write(tmp_path / "one.h5", {"a.x": ([1.0, 2.0, 3.0], "1")}, [64.0, 64.0 + 6e-11, 64.0 - 6e-11]), ["mean_torque_drive"])
+    low, high = draw_curves(sweep).axes[0].get_ylim()
+    assert low < 61 and high > 67
+
+
+def test_what_to_take_needs_cases_that_count_as_one(grid, capsys):
+    assert main([str(grid), "--take", "mean"]) == 2
+    assert "give with --over the keys that they differ in" in capsys.readouterr().err

@@ -108,8 +108,84 @@ def test_the_largest_shear_below_a_line_contact_is_that_of_its_stresses(tmp_path
     shear = 0.5 * np.abs(along - across)
     assert abs(shear.max() - LARGEST_SHEAR) < 1e-6 and abs(depth[shear.argmax()] - 0.78615) < 1e-5
     layout = Layout([read_result(write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,)))])
+    stress, peak = (values_of(layout, layout.entries[0], name, "MPa") for name in ("subsurface_shear_stress", "axial_pressure_max"))
+    assert np.allclose(stress / peak, LARGEST_SHEAR)
+    uniform = write_result(tmp_path / "uniform.h5", swept=(), speeds=(600.0,), oils=(60.0,), without=("axial_pressure_max",))
+    layout = Layout([read_result(uniform)])
     stress, peak = (values_of(layout, layout.entries[0], name, "MPa") for name in ("subsurface_shear_stress", "hertz_pressure"))
     assert np.allclose(stress / peak, LARGEST_SHEAR)
+
+
+@pytest.mark.parametrize("shaft, turns", [(None, 1.0), ("camshaft", 1.0), ("crankshaft", 2.0)])
+def test_the_acceleration_of_a_rigid_train_is_at_the_speed_of_its_camshaft(tmp_path, shaft, turns):
+    path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
+    with h5py.File(path, "a") as file:
+        file["series/valve_velocity"][...] = np.sin(np.radians(file["series/cam_angle"][:]))
+        if shaft:
+            file["deck/values/engine.given_speed"], file["summary/crank_turns"] = shaft, [2.0]
+    layout = Layout([read_result(path)])
+    values = values_of(layout, layout.entries[0], "valve_acceleration", "m/s2")
+    assert values.max() == pytest.approx(600.0 * np.pi / 30 / turns, rel=2e-3)
+
+
+def test_the_acceleration_of_a_flexible_train_is_that_of_its_file(tmp_path):
+    path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
+    with h5py.File(path, "a") as file:
+        given = file.create_dataset("series/valve_acceleration", data=file["series/valve_velocity"][()] * 0.0 + 423.0)
+        given.attrs["units"] = np.bytes_("m s-2")
+    [axes] = draw("acceleration", Layout([read_result(path)])).axes
+    assert axes.lines[0].get_ydata() == pytest.approx(423.0) and axes.get_ylabel() == "valve acceleration [m/s²]"
+
+
+def given_by(path, shaft):
+    """The file with an engine whose deck gives the speed of a shaft."""
+    with h5py.File(path, "a") as file:
+        file["deck/values/engine.given_speed"] = shaft
+        file["summary/crank_turns"] = np.full(file["case"].size, 2.0)
+    return path
+
+
+def test_files_whose_speeds_are_of_different_shafts_say_so(tmp_path):
+    engine, other = (write_result(tmp_path / f"{name}.h5", title=name, oils=(60.0,), swept=(SPEED,)) for name in ("engine", "rig"))
+    layout = Layout([read_result(given_by(engine, "crankshaft")), read_result(other)])
+    assert layout.titles == ["engine, speed of the crankshaft", "rig, speed of the camshaft"] and layout.short_names[SPEED] == "speed"
+    layout = Layout([read_result(given_by(other, "crankshaft")), read_result(engine)])
+    assert layout.titles == ["rig", "engine"] and layout.short_names[SPEED] == "crankshaft speed"
+
+
+def test_curves_of_trains_without_a_period_are_of_one_turn_and_the_page_says_so(tmp_path):
+    path = write_result(tmp_path / "two.h5", swept=(SPEED,), speeds=(300.0, 600.0), oils=(60.0,))
+    with h5py.File(path, "a") as file:
+        file["summary/period_cycles"] = [0.0, 0.0]
+    words = "no period: curves are the last of 2 turns, means of all"
+    for name in ("film", "drive_torque", "overview", "roller"):
+        figure = draw(name, Layout([read_result(path)]))
+        assert words in shown_title(figure.subfigs[0] if figure.subfigs else figure).replace("\n", " "), name
+    for name in ("mean_torque", "turns"):
+        assert "curves are" not in shown_title(draw(name, Layout([read_result(path)])))
+    with h5py.File(path, "a") as file:
+        file["summary/period_cycles"][...] = [1.0, 2.0]
+    assert Layout([read_result(path)]).turn_words() == ["a period of several turns in 1 of 2 cases: curves are one of 2 turns, means of all"]
+    with h5py.File(path, "a") as file:
+        file["summary/period_cycles"][...] = [1.0, 1.0]
+    assert not Layout([read_result(path)]).turn_words()
+
+
+def test_turns_have_one_axis_in_all_panels(tmp_path):
+    path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
+    with h5py.File(path, "a") as file:
+        file["turns/seating_speed"][:, 1] = np.nan
+    panels = draw("turns", Layout([read_result(path)])).axes[:3]
+    assert len({axes.get_xlim() for axes in panels}) == 1
+
+
+def test_bars_have_the_colours_of_the_curves_and_of_their_legend(tmp_path):
+    results = [read_result(write_result(tmp_path / f"{name}.h5", title=name, swept=(), speeds=(600.0,), oils=(60.0,))) for name in "ab"]
+    figure = draw("overview", Layout(results))
+    curves = [to_hex(line.get_color()) for line in figure.subfigs[0].axes[0].lines if len(line.get_xdata()) > 2]
+    slip = figure.subfigs[1].subfigs[0]
+    assert curves == [to_hex(bar.get_facecolor()) for bar in slip.axes[0].patches]
+    assert curves == [to_hex(handle.get_facecolor()) for handle in slip.legends[0].legend_handles]
 
 
 def test_surfaces_over_hours_are_those_of_the_file(tmp_path):

@@ -63,3 +63,9 @@ def test_values_have_the_digits_that_tell_them_apart():
     assert distinct_texts([25000.0, 30000.0]) == ["25000", "30000"]
     assert distinct_texts([532.92141866, 609.3]) == ["532.9", "609.3"]
     assert distinct_texts([1000.01, 1000.02]) == ["1000.01", "1000.02"]
+
+
+@pytest.mark.parametrize("ending", ["", "_deviation", "_lowest", "_highest"])
+def test_shares_over_the_cycles_are_in_per_cent_as_their_means(ending):
+    assert fitting_unit(f"float_share{ending}", "1", [0.7]) == ("%", 100.0)
+    assert fitting_unit(f"bounces{ending}", "1", [0.7]) == ("1", 1.0)

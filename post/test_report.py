@@ -9,6 +9,7 @@ import sys
 import h5py
 import pytest
 
+from layout import Layout
 from read import read_result
 from report import main, page_of
 from test_post import write_result
@@ -89,6 +90,33 @@ def test_remarks_of_a_kind_are_one_line_and_estimates_are_told(tmp_path):
         file["deck/values/lubricant.sae_grade"][...] = "none"
     page = page_of(read_result(source))
     assert estimate not in page and "SAE grade" not in page
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_page_shows_the_point_and_the_values_given_beside_the_deck(tmp_path):
+    source = write_result(tmp_path / "one.h5", speeds=(600.0,), oils=(60.0,), swept=())
+    page = page_of(read_result(source))
+    assert "<tr><th>speed [rev/min]</th><th>oil temperature [°C]</th>" in page and "<tr><td>600</td><td>60</td>" in page
+    assert "beside the deck" not in page
+    with h5py.File(source, "a") as file:
+        file["deck/overrides"] = ["operating_point.speed_rpm=600", "case.title='a < b'"]
+    page = page_of(read_result(source))
+    assert "<p>Values given beside the deck, in the place of its own:</p>\n<pre>operating_point.speed_rpm=600\ncase.title=&#x27;a &lt; b&#x27;</pre>" in page
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_cases_that_a_partial_file_does_not_have_are_not_computed(tmp_path):
+    source = write_result(tmp_path / "nine.h5")
+    with h5py.File(source, "a") as file:
+        file["summary/status"] = [0, 0, 0, 0, 0, 0, -1, -1, -1]
+    page = page_of(read_result(source))
+    assert "<p>3 of 9 cases were not computed.</p>" in page and "no result" not in page
+    assert Layout([read_result(source)]).common_words() == ["3 of 9 cases were not computed"]
+    with h5py.File(source, "a") as file:
+        file["summary/status"][0], file["run/messages"] = 5, ["case 0: no film", *[""] * 8]
+    page = page_of(read_result(source))
+    assert "<p>3 of 9 cases were not computed, 1 of 9 cases have no result; the reasons are among the remarks.</p>" in page
+    assert re.findall("<li>(.*)</li>", page) == ["case 0 has no result: no film"]
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no browser on this machine")

@@ -258,3 +258,26 @@ def test_rows_with_lost_contact_are_named(grid):
     with h5py.File(grid, "a") as file:
         file["summary/period_cycles"] = np.ones(60)
     assert "Contact is lost in 2 of 5 cases (2, 4)." in table_of(read_result(grid), ["estimated_error"], rows=5)
+
+
+def test_of_many_failures_the_first_are_told(grid):
+    with h5py.File(grid, "a") as file:
+        file["summary/status"][:20] = 5
+        file["run/messages"] = [f"case {case}: no film" if case < 20 else "" for case in range(60)]
+    lines = [line for line in table_of(read_result(grid)).splitlines() if "no result" in line]
+    assert lines == [*(f"Case {case} has no result: no film" for case in range(5)), "15 more cases have no result"]
+
+
+@pytest.mark.parametrize("options, words", [
+    (["--take", "mean"], "table.py: --take mean is of several cases that count as one: give with --over the keys that they differ in"),
+    (["--columns", ","], "table.py: --columns names nothing: it takes names separated by commas, not ','"),
+])
+def test_options_that_would_do_nothing_are_refused(grid, capsys, options, words):
+    assert main([str(grid), *options]) == 2
+    assert capsys.readouterr().err.strip() == words
+
+
+def test_a_list_of_names_is_given_once(grid, capsys):
+    with pytest.raises(SystemExit) as end:
+        main([str(grid), "--over", "speed_rpm", "--over", "oil_temperature_degC"])
+    assert end.value.code == 2 and "--over is given more than once: list its names in one" in capsys.readouterr().err

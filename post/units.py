@@ -1,9 +1,11 @@
 """Units and numbers as people read them: the one place that figures, tables and pages take them from."""
 
+import re
+
 import numpy as np
 
 # Other spellings of a unit
-SAME = {"m s-1": "m/s", "N m-1": "N/m", "rad s-1": "rad/s", "-": "1", "": "1", "N*m": "N m", "N.m": "N m", "degree": "deg"}
+SAME = {"m s-1": "m/s", "m s-2": "m/s2", "N m-1": "N/m", "rad s-1": "rad/s", "-": "1", "": "1", "N*m": "N m", "N.m": "N m", "degree": "deg"}
 # Unit of a file: units that it is shown in, the small ones first, each with how many of them one of the file's is
 SHOWN = {
     "m": (("nm", 1e9), ("um", 1e6), ("mm", 1e3), ("m", 1.0)),
@@ -22,9 +24,10 @@ SHOWN = {
 }
 LEAST = 0.1  # of the largest value in the unit that is chosen
 PARTS = ("_share", "slip_ratio", "revolution_slip")  # names of parts of a whole, in per cent
+OVER_CYCLES = re.compile("_(deviation|lowest|highest)$")  # behind the name of a scalar: what its values over the cycles are like
 DEGREE, MICRO, SQUARE = "\N{DEGREE SIGN}", "\N{MICRO SIGN}", "\N{SUPERSCRIPT TWO}"
 WORDS = {"rpm": "rev/min", "degC": DEGREE + "C", "deg": DEGREE, "degree": DEGREE, "um": MICRO + "m", "um2": MICRO + "m" + SQUARE,
-         "mm2": "mm" + SQUARE, "m2": "m" + SQUARE, "um/s": MICRO + "m/s", "us": MICRO + "s", "Pas": "Pa s"}
+         "mm2": "mm" + SQUARE, "m2": "m" + SQUARE, "m/s2": "m/s" + SQUARE, "um/s": MICRO + "m/s", "us": MICRO + "s", "Pas": "Pa s"}
 MOST_DIGITS = 10  # of a value that has to differ from its neighbours
 
 
@@ -43,7 +46,7 @@ def fitting_unit(name, unit, values):
     """Unit that a quantity is shown in so that its largest value is neither long nor tiny, and the factor to it."""
     unit = plain_unit(unit)
     if unit == "1":
-        return ("%", 100.0) if name.endswith(PARTS) else ("1", 1.0)
+        return ("%", 100.0) if OVER_CYCLES.sub("", name).endswith(PARTS) else ("1", 1.0)
     sizes = np.abs(np.asarray(values, dtype=float))
     top = sizes[np.isfinite(sizes)].max(initial=0.0)
     choices = SHOWN.get(unit, ((unit, 1.0),))

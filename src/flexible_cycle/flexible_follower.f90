@@ -251,6 +251,7 @@ contains
       associate (values => state%flexible)
          values%lift_error = train(at_lift) - rigid%lift
          values%gap = max(0.0_wp, -now%cam%approach)
+         values%valve_acceleration = now%valve_acceleration
          values%contact_turn = now%touch%angle - angle
          values%load_error = now%contact%load - moments%total/rigid%normal_arm
          values%pad_force = now%pad%force

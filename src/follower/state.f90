@@ -27,6 +27,8 @@ module camroller_state
    type :: flexible_values_t
       !> Lift less that of the rigid train, gap between cam and roller [m]
       real(wp) :: lift_error, gap
+      !> Acceleration of the valve [m/s^2]
+      real(wp) :: valve_acceleration
       !> Angle by which the place of contact is ahead of the cam's turn [rad]
       real(wp) :: contact_turn
       !> Load less that of the rigid train without friction [N]

@@ -321,6 +321,8 @@ contains
       integer :: n
 
       call add(list, "lift_error", "m", "valve lift less that of a rigid train", "dynamics", train%lift_error)
+      call add(list, "valve_acceleration", "m s-2", "acceleration of the valve, positive in the direction of opening", "dynamics", &
+         & train%valve_acceleration)
       call add(list, "contact_gap", "m", "gap between cam and roller", "dynamics", train%gap)
       call add(list, "contact_turn", "rad", "angle by which the point of contact is ahead of the cam", "dynamics", &
          & train%contact_turn)

@@ -88,6 +88,19 @@ def test_an_adjuster_is_periodic_and_its_energy_closes(tmp_path, camroller):
     assert summary["plunger_lowest"] < -2e-5 < 0 < summary["leak_volume"]
 
 
+def test_the_acceleration_of_the_valve_is_the_rate_of_its_speed(tmp_path, camroller):
+    """Its peaks are narrow: 46 m/s2 are left of 420 by differences over a degree. The extremes are those of the whole turn."""
+    summary, _ = run(camroller, DECK, tmp_path / "one.h5", "output.angle_step_deg=0.02")
+    with h5py.File(tmp_path / "one.h5") as file:
+        speed, acceleration = (file[f"series/{name}"][0] for name in ("valve_velocity", "valve_acceleration"))
+    step = 0.02 / 360 * 60 / 300  # [s]
+    slope = (np.roll(speed, -1) - np.roll(speed, 1)) / (2 * step)
+    assert np.abs(slope - acceleration).max() < 0.1 * np.abs(acceleration).max()
+    for name, value in (("min", acceleration.min()), ("max", acceleration.max())):
+        assert summary[f"{name}_valve_acceleration"] == pytest.approx(value, rel=0.02)
+    assert abs(summary["mean_valve_acceleration"]) < 1e-3 * np.abs(acceleration).mean()
+
+
 def test_the_plungers_spring_makes_the_base_circle_load(tmp_path, camroller):
     text = ADJUSTER.read_text().replace("   base_circle_load_N = 64\n", "").replace(
         "   diameter_mm = 10\n", "   diameter_mm = 10\n   plunger_spring_N = 10.672235\n")
