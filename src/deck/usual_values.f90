@@ -154,6 +154,17 @@ module camroller_usual_values
       usual_t("guide_side_load.friction_coefficient", 0.0_wp, 0.3_wp), &
       usual_t("finger_pivot.ball_radius_mm", 2.0_wp, 15.0_wp), &
       usual_t("finger_pivot.friction_coefficient", 0.0_wp, 0.3_wp), &
+      ! What friction of joints is measured with: oils from hot to cold, forces from closed valves to racing springs
+      usual_t("valve_tip.decay_speed_m_s", 1.0e-3_wp, 10.0_wp), &
+      usual_t("valve_tip.reference_viscosity_Pa_s", 1.0e-3_wp, 2.0_wp), &
+      usual_t("valve_tip.reference_load_N", 1.0_wp, 5000.0_wp), &
+      usual_t("guide_side_load.decay_speed_m_s", 1.0e-3_wp, 10.0_wp), &
+      usual_t("guide_side_load.reference_viscosity_Pa_s", 1.0e-3_wp, 2.0_wp), &
+      usual_t("guide_side_load.reference_load_N", 1.0_wp, 5000.0_wp), &
+      usual_t("finger_pivot.decay_speed_m_s", 1.0e-3_wp, 10.0_wp), &
+      usual_t("finger_pivot.reference_viscosity_Pa_s", 1.0e-3_wp, 2.0_wp), &
+      usual_t("finger_pivot.reference_load_N", 1.0_wp, 5000.0_wp), &
+      usual_t("stem_seal.reference_viscosity_Pa_s", 1.0e-3_wp, 2.0_wp), &
       usual_t("needle_drag.pitch_diameter_mm", 4.0_wp, 50.0_wp), &
       usual_t("needle_drag.viscous_factor", 1.0_wp, 30.0_wp), &
       ! From a moped's cylinder to a truck's engine of six

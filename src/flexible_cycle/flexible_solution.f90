@@ -71,6 +71,8 @@ module camroller_flexible_solution
       type(trend_t) :: trend
       !> Was the search for a period given up before the turns allowed, since they take so many steps?
       logical :: is_cut_short = .false.
+      !> Turns of that search, without those with larger tolerances before it
+      integer :: tried = 0
       !> The last turn again, with a finer tolerance, and what its integration did not tell apart
       type(trajectory_t) :: finer
       type(resolution_t) :: finer_resolution
@@ -165,7 +167,8 @@ contains
             cycle%period = 0
             ratio = ratio/level_ratio
          end do
-         solution%is_cut_short = cycle%period == 0 .and. cycle%cycles - cycles < max_cycles
+         solution%tried = cycle%cycles - cycles
+         solution%is_cut_short = cycle%period == 0 .and. solution%tried < max_cycles
       end associate
    end subroutine search_by_levels
 

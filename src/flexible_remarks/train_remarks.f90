@@ -299,7 +299,7 @@ contains
             & " cycles at "//speed//"; the summary covers all of them, the series "// &
             & "show the last", real(solution%cycle%period, wp))
       else
-         text = "the motion of the train did not become periodic within "//integer_text(solution%cycle%cycles)//" cycles at "// &
+         text = "the motion of the train did not become periodic within "//integer_text(solution%tried)//" cycles at "// &
             & speed
          if (solution%is_cut_short) then
             text = text//", and no more are tried: "

@@ -54,6 +54,8 @@ module camroller_margins
    !> Longest step of a scan [rad], and least number of steps of a piece
    real(wp), parameter :: longest_step = 0.5_wp*degree
    integer, parameter :: least_steps = 16
+   !> Part of the adjuster's force that is rounding of the moments: a soft seat passes the load on to the event without a step [-]
+   real(wp), parameter, public :: joint_rounding = 1.0e-9_wp
    !> Gain of a lowest value that is not worth an evaluation, over the largest value of the piece [-]
    real(wp), parameter :: worth = 1.0e-13_wp
 
@@ -276,6 +278,7 @@ contains
       end associate
       if (size(splits) == pivot_load) return
       splits(above_adjuster) = split_t(splits(pivot_load)%static - adjuster, splits(pivot_load)%inertia)
+      if (abs(splits(above_adjuster)%static) <= joint_rounding*adjuster) splits(above_adjuster)%static = joint_rounding*adjuster
    end subroutine take_forces
 
    !> Force of the lash adjuster that presses the roller on the base circle with the base circle load.

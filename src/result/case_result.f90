@@ -17,6 +17,7 @@ module camroller_case_result
    use camroller_follower_samples, only : contact_ahead, extend_trail, trail_t
    use camroller_lobe_curve, only : cam_values, curve_values
    use camroller_series_extremes, only : series_extremes_t, find_extremes, find_lobe_extremes
+   use camroller_heat_remarks, only : judge_heat
    use camroller_margins, only : margins_t, find_margins
    use camroller_names, only : name_length
    use camroller_oil_checks, only : find_far_points, judge_estimate
@@ -219,6 +220,7 @@ contains
       call list_turns(cycles, result)
       call judge_extremes(case, models, statistics, result)
       call judge_temperature(case, result)
+      call judge_heat(solved, films, bearing_torque, result)
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)
    end subroutine make_result

@@ -14,7 +14,7 @@ module camroller_cycle_remarks
    use camroller_film_range, only : distance_outside, matters, outside_words, range_in_words
    use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
-   use camroller_margins, only : margins_t
+   use camroller_margins, only : joint_rounding, margins_t
    use camroller_cycle_shares, only : liquid_stress, shear_ratio_allowed, thinnest_film
    use camroller_means, only : has_film_limit, statistics_t
    use camroller_model, only : model_t
@@ -318,7 +318,7 @@ contains
          text = "the joint of finger and lash adjuster opens: it lacks "
          lack = -margins%pivot%force
          speed = margins%pivot%speed
-      else if (lack > 0.0_wp) then
+      else if (lack > joint_rounding*margins%adjuster_force) then
          text = "a hydraulic lash adjuster pumps up: the force in its joint is below its own by "
          speed = margins%pump_up_speed
       else

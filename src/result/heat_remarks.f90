@@ -1,0 +1,162 @@
+!> Remarks on heat that a case leaves out: oil that friction would warm in the bearings of the camshaft, or in the inlets of contacts,
+!> by so much that films and friction are other ones.
+!>
+!> In: a solved case, its summary, mean torques and films of its bearings. Out: remarks, one line of each kind. They are estimates
+!> by closed formulas of what `&bearing_heat` and `&heat` compute, without a further state of bearing or contact.
+module camroller_heat_remarks
+   use camroller_kinds, only : wp, two_pi
+   use camroller_bearing_heat, only : bearing_heat_t, flow_covers_width, oil_flow, temperature_rise
+   use camroller_case, only : case_t
+   use camroller_catalogue, only : lobe_prefix
+   use camroller_error, only : error_t
+   use camroller_heat, only : heat_t, inlet_factor, inlet_murch_wilson
+   use camroller_lubricant, only : density_at, get_oil, law_direct, oil_t, temperature_law_names
+   use camroller_number_text, only : number_text
+   use camroller_remarks, only : add_remark, cool_bearings, cool_inlet
+   use camroller_result, only : find_quantity, result_t
+   use camroller_sampled_extremes, only : samples_t
+   use camroller_shaft, only : bearing_number, solved_t
+   implicit none
+   private
+
+   public :: judge_heat
+
+   !> Part of the film, or of the viscosity in a bearing, that is left with heat, from which on a remark is worth its line: film laws
+   !> differ by no more from each other [-]
+   real(wp), parameter :: worth_a_word = 0.7_wp
+   !> Rise of the temperature over which the viscosity's fall is taken [K]
+   real(wp), parameter :: fall_step = 5.0_wp
+
+contains
+
+   !> Remarks on heat that a case leaves out.
+   subroutine judge_heat(solved, films, torques, result)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> Smallest film of each bearing of each camshaft at the angles of the means, in order round a turn; empty without bearings
+      !> [m]
+      type(samples_t), intent(in) :: films
+      !> Mean torque of the bearings of each camshaft [N m]
+      real(wp), intent(in) :: torques(:)
+      !> Gets the remarks; has its summary
+      type(result_t), intent(inout) :: result
+
+      if (solved%case%lubricant%temperature_law == temperature_law_names(law_direct)) return
+      if (allocated(solved%shaft%bearings) .and. .not. allocated(solved%case%bearing_heat)) call judge_bearings(solved, films, &
+         & torques, result)
+      if (.not. allocated(solved%case%heat)) call judge_inlets(solved, result)
+   end subroutine judge_heat
+
+   !> Oil of the bearings of the camshaft whose oil would warm the most: all bearings together, by their mean torque and their flow at
+   !> the mean of their eccentricity; at the temperature at which the oil carries off the friction of the film, which is in proportion
+   !> to the viscosity. Eccentricity and flow grow as the oil thins, so that the rise is rather less.
+   subroutine judge_bearings(solved, films, torques, result)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> As of `judge_heat` [m]
+      type(samples_t), intent(in) :: films
+      !> As of `judge_heat` [N m]
+      real(wp), intent(in) :: torques(:)
+      !> Gets the remark
+      type(result_t), intent(inout) :: result
+
+      ! Parts of a turn that the angles stand for, mean eccentricity [-]; flow of oil [m^3/s]
+      real(wp) :: parts(films%count), eccentricity, flow
+      ! Rise with the viscosity at the temperature of the supply, that with its own [K]; viscosity over that of the supply [-]
+      real(wp) :: rises(size(torques)), rise, part
+      integer :: n, k, b
+
+      associate (bearings => solved%shaft%bearings, shaft => solved%shaft, case => solved%case)
+         if (.not. flow_covers_width(bearings%law, bearings%width, bearings%diameter)) return
+         n = films%count
+         if (n < 2) return
+         parts = modulo(cshift(films%angle(:n), 1) - cshift(films%angle(:n), -1), two_pi)/(2.0_wp*two_pi)
+         do k = 1, size(torques)
+            flow = 0.0_wp
+            do b = 1, bearing_number(shaft)
+               eccentricity = 1.0_wp - sum(parts*films%values((k - 1)*bearing_number(shaft) + b, :n))/bearings%radial_clearance
+               flow = flow + oil_flow(shaft%journal, shaft%speed, eccentricity)
+            end do
+            rises(k) = temperature_rise(bearing_heat_t(), density_at(case%lubricant, case%operating_point%oil_temperature), &
+               & torques(k)*abs(shaft%speed), flow)
+         end do
+         call warm_oil(case, solved%models(1)%oil%viscosity, maxval(rises), rise, part)
+         if (part > worth_a_word) return
+         call add_remark(result%remarks, cool_bearings, "the oil in the bearings of the camshaft is taken at the temperature of "// &
+            & "the supply; friction would warm it by about "//number_text(rise, 2)//" K, to "//number_text(part, 2)//" of that "// &
+            & "viscosity, and friction of the bearings would fall with it; &bearing_heat computes it", 1.0_wp/part)
+      end associate
+   end subroutine judge_bearings
+
+   !> Temperature at which the oil carries off a friction in proportion to its viscosity, by bisection.
+   subroutine warm_oil(case, viscosity, cold, rise, part)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Viscosity at the temperature of the oil [Pa s], rise of the temperature with it [K]
+      real(wp), intent(in) :: viscosity, cold
+      !> Rise that goes with the viscosity there [K]
+      real(wp), intent(out) :: rise
+      !> This viscosity over the given one [-]
+      real(wp), intent(out) :: part
+
+      ! No oil is so much warmer than its supply [K]; steps, of which each halves what may be off: to 0.2 K
+      real(wp), parameter :: largest = 200.0_wp
+      integer, parameter :: steps = 10
+      type(oil_t) :: oil
+      type(error_t), allocatable :: error
+      real(wp) :: low, high ! [K]
+      integer :: i
+
+      rise = 0.0_wp
+      part = 1.0_wp
+      low = 0.0_wp
+      high = min(cold, largest)
+      if (.not. high > 0.0_wp) return
+      do i = 1, steps
+         rise = 0.5_wp*(low + high)
+         call get_oil(case%lubricant, case%operating_point%oil_temperature + rise, oil, error)
+         ! Hotter than its laws go
+         if (allocated(error)) then
+            high = rise
+            cycle
+         end if
+         part = oil%viscosity/viscosity
+         if (rise < cold*part) low = rise
+         if (rise >= cold*part) high = rise
+      end do
+   end subroutine warm_oil
+
+   !> Films of the lobe shape whose inlet would be heated the most: by the factor of Murch and Wilson (1975) for pure rolling at the
+   !> largest speed of entrainment.
+   subroutine judge_inlets(solved, result)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> Gets the remark; has its summary
+      type(result_t), intent(inout) :: result
+
+      type(oil_t) :: oil
+      type(error_t), allocatable :: error
+      type(heat_t) :: steel
+      ! Speed of entrainment [m/s]; fall of ln(viscosity) [1/K]; ln of the factor [-], its slopes, not used
+      real(wp) :: speed, fall, log_factor, slopes(3)
+      integer :: lobe, place
+
+      associate (case => solved%case, model => solved%models(1))
+         call get_oil(case%lubricant, case%operating_point%oil_temperature + fall_step, oil, error)
+         if (allocated(error)) return
+         fall = log(model%oil%viscosity/oil%viscosity)/fall_step
+         speed = 0.0_wp
+         do lobe = 1, size(solved%models)
+            place = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"entrainment_speed")
+            if (place > 0) speed = max(speed, result%summary_values(place))
+         end do
+         call inlet_factor(inlet_murch_wilson, fall*model%oil%viscosity/steel%oil_conductivity, speed, 0.0_wp, 0.0_wp, log_factor, &
+            & slopes(1), slopes(2), slopes(3))
+         if (log_factor > log(worth_a_word)) return
+         call add_remark(result%remarks, cool_inlet, "films are those of oil as cold as around them; its heating in the inlet "// &
+            & "would leave about "//number_text(exp(log_factor), 2)//" of the film at the largest speed of entrainment, "// &
+            & number_text(speed, 3)//" m/s; &heat computes it", exp(-log_factor))
+      end associate
+   end subroutine judge_inlets
+
+end module camroller_heat_remarks
