@@ -1,6 +1,7 @@
 /* FMI 2.0 for co-simulation: the functions of the standard (Modelica Association, 2014, version 2.0, chapter 2 and 4), over one
  * instance. Types are those of the standard; what belongs to model exchange is no part of an FMU for co-simulation. */
 #include "instance.h"
+#include <ctype.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,9 +57,8 @@ fmi2Status fmi2SetDebugLogging(void *c, int is_on, size_t count, const char *con
    return fmi2OK;
 }
 
-/* Path of a URI of a file; other characters than letters are written %xx there */
+/* Path of a URI of a file; other characters than letters are written as % and two hexadecimal digits there */
 static void path_of(const char *uri, char *path, size_t room) {
-   unsigned code;
    if (strncmp(uri, "file://", 7) == 0) {
       uri += 7;
       if (*uri != '/' && strchr(uri, '/') != NULL) uri = strchr(uri, '/');
@@ -66,8 +66,9 @@ static void path_of(const char *uri, char *path, size_t room) {
       uri += 5;
    }
    while (*uri != 0 && room > 1) {
-      if (*uri == '%' && sscanf(uri + 1, "%2x", &code) == 1) {
-         *path++ = (char)code;
+      if (*uri == '%' && isxdigit((unsigned char)uri[1]) && isxdigit((unsigned char)uri[2])) {
+         const char digits[] = {uri[1], uri[2], 0};
+         *path++ = (char)strtol(digits, NULL, 16);
          uri += 3;
       } else {
          *path++ = *uri++;

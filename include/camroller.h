@@ -122,8 +122,8 @@ typedef struct {
    double contact_load[2];   /* [N] */
    double extreme_torque[2]; /* torque that drives [N m] */
    double sliding_speed[2];  /* [m/s] */
-   double largest_pressure;  /* of the dry contact [Pa] */
-   double smallest_film;     /* [m]; huge where there is no contact all the step */
+   double largest_pressure;  /* of the dry contact, anywhere along the roller [Pa] */
+   double smallest_film;     /* anywhere along the roller [m]; huge where there is no contact all the step */
    /* of the mean torque that drives: what the case's accuracy leaves, not what inputs differ from straight lines [N m] */
    double estimated_error;
    /* by all other sources together, as a case has them: oil in the roller's bearing, valve tip, stem seal, ends of the guide, finger's

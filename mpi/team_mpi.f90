@@ -9,6 +9,7 @@ module camroller_team_mpi
       & mpi_max, mpi_status_ignore, mpi_sum, mpi_thread_serialized, mpi_win, mpi_win_allocate, mpi_win_flush, &
       & mpi_win_free, mpi_win_lock_all, mpi_win_unlock_all, mpi_barrier, mpi_win_sync
    use, intrinsic :: iso_c_binding, only : c_f_pointer, c_int, c_ptr, c_sizeof
+   use camroller_error, only : error_t, kind_usage, raise
    use camroller_team, only : team_t
    implicit none
    private
@@ -30,9 +31,11 @@ module camroller_team_mpi
 contains
 
    !> Start MPI and the team.
-   subroutine start_team(team)
+   subroutine start_team(team, error)
       !> The team
       type(team_mpi_t), intent(out) :: team
+      !> Usage error where MPI does not let threads call it in turn, as those of a process do; MPI has ended then
+      type(error_t), allocatable, intent(out) :: error
 
       integer(mpi_address_kind) :: bytes
       type(c_ptr) :: address
@@ -41,6 +44,11 @@ contains
       call mpi_init_thread(mpi_thread_serialized, provided)
       call mpi_comm_rank(mpi_comm_world, team%rank)
       call mpi_comm_size(mpi_comm_world, team%ranks)
+      if (provided < mpi_thread_serialized) then
+         call raise(error, kind_usage, "this MPI does not let threads call it in turn; one with MPI_THREAD_SERIALIZED is needed")
+         call mpi_finalize()
+         return
+      end if
       bytes = c_sizeof(1_c_int)
       call mpi_win_allocate(bytes, int(bytes), mpi_info_null, mpi_comm_world, address, team%window)
       call c_f_pointer(address, team%counter)

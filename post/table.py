@@ -44,6 +44,7 @@ COLUMNS = [
     ('mean_slip_ratio', 'mean slip', '%'),
     ('max_axial_pressure_max', 'peak pressure', 'GPa'),
     ('max_hertz_pressure', 'peak pressure', 'GPa'),
+    ('min_film_thickness_axial_min', 'smallest film', 'um'),
     ('min_film_thickness_min', 'smallest film', 'um'),
 ]
 MOST_ROWS = 50

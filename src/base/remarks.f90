@@ -8,7 +8,7 @@ module camroller_remarks
    implicit none
    private
 
-   public :: remark_t, remark_group_t, remarks_t, add_remark, remark_lines, note_remarks
+   public :: remark_t, remarks_t, add_remark, remark_lines, note_remarks
    public :: remark_names, lost_contact, outside_range, unresolved_slip, standing_entrainment, open_pivot, pumped_adjuster, &
       & missed_accuracy, missed_means, loose_tolerance, missing_profiles, missed_extremes, no_period, long_period, &
       & relieved_spring, film_without_limit, beyond_pressure_law, hot_inlet, bouncing_valve, rising_plunger, stopped_plunger, &

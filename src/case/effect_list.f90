@@ -22,7 +22,7 @@ module camroller_effect_list
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
       & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, effect_bearing_heat, effect_profile, &
-      & effect_boundary_law, effect_running_in, effect_shaft_drag, needs_bearings
+      & effect_boundary_law, effect_shaft_drag, needs_bearings
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &

@@ -9,6 +9,7 @@ module camroller_flexible_setup
    use camroller_asperity, only : mobilisation_names
    use camroller_kinematics, only : linkage_t, position_t, evaluate_position
    use camroller_dynamics, only : train_t
+   use camroller_lift, only : highest_lift, lift_law_t
    use camroller_pivot, only : pivot_t
    use camroller_pivot_friction, only : largest_slope, pivot_part_t
    use camroller_torque, only : normal_direction
@@ -61,12 +62,13 @@ contains
    end subroutine check_ball
 
    !> Constants of a case's flexible train.
-   subroutine set_flexible(flexible, case, linkage, train, pivot, modulus, load, error)
+   subroutine set_flexible(flexible, case, lift_law, linkage, train, pivot, modulus, load, error)
       !> The train
       type(flexible_t), intent(out) :: flexible
       !> The case, with a flexible train
       type(case_t), intent(in) :: case
-      !> Its linkage
+      !> Its lift, its linkage
+      type(lift_law_t), intent(in) :: lift_law
       type(linkage_t), intent(in) :: linkage
       !> Its masses and spring
       type(train_t), intent(in) :: train
@@ -83,7 +85,7 @@ contains
          call raise(error, kind_deck, "dynamics: the finger's mass is needed, masses.finger_kg above 0")
          return
       end if
-      call check_contacts(case, error)
+      call check_contacts(case, highest_lift(lift_law), error)
       if (allocated(error)) return
       call set_contacts(flexible, case%dynamics, modulus, case%mechanism%contact_width)
       flexible%finger_mass = pivot%mass
@@ -112,9 +114,11 @@ contains
    end subroutine check_company
 
    !> Refuse contacts that cannot carry.
-   subroutine check_contacts(case, error)
+   subroutine check_contacts(case, lift, error)
       !> The case
       type(case_t), intent(in) :: case
+      !> Largest lift of the lobe shape [m]
+      real(wp), intent(in) :: lift
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
@@ -131,10 +135,10 @@ contains
          end if
          if (allocated(error)) return
          sink = case%spring%stiffness*case%spring%precompression/dynamics%seat_stiffness
-         if (sink <= deepest*case%lift%max_lift .or. case%lift%max_lift <= 0.0_wp) return
+         if (sink <= deepest*lift) return
          call raise(error, kind_deck, "dynamics: the seat is too soft for the spring: the closed valve sinks "// &
             & fixed_text(1.0e3_wp*sink, 3)//" mm into it, more than a twentieth of the lift; raise dynamics.seat_stiffness_N_m "// &
-            & "above "//number_text(case%spring%stiffness*case%spring%precompression/(deepest*case%lift%max_lift), 3))
+            & "above "//number_text(case%spring%stiffness*case%spring%precompression/(deepest*lift), 3))
       end associate
    end subroutine check_contacts
 

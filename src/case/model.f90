@@ -485,7 +485,7 @@ contains
       end if
       if (allocated(case%dynamics)) then
          allocate (model%flexible)
-         call set_flexible(model%flexible, case, model%linkage, model%train, model%pivot, model%modulus, &
+         call set_flexible(model%flexible, case, model%lift_law, model%linkage, model%train, model%pivot, model%modulus, &
             & model%base_circle_load, error)
          if (.not. allocated(error) .and. allocated(model%joints)) call check_ball(model%flexible, model%train, &
             & model%joints%pivot, error)

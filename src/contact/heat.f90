@@ -15,7 +15,7 @@ module camroller_heat
 
    public :: heat_t, heat_part_t, inlet_law_names, contact_heat_names, new_heat_part, set_heat_oil, inlet_factor, &
       & is_inlet_in_range, hot_oil_range, compare_hot_oil
-   public :: inlet_none, inlet_murch_wilson, inlet_gupta, contact_heat_none
+   public :: inlet_none, inlet_murch_wilson, contact_heat_none
 
    !> Factor on the film by heating of the inlet
    character(len=*), parameter :: inlet_law_names(*) = [character(len=name_length) :: "none", "murch_wilson", "gupta"]

@@ -10,7 +10,6 @@ module camroller_deck_sweep
    use camroller_kinds, only : wp, not_a_number
    use camroller_names, only : name_length
    use camroller_quotes, only : without_quotes
-   use camroller_units, only : unit_name_length
    use camroller_number_text, only : append_number, integer_text
    use camroller_text_list, only : first_repeated, new_text_list, put_text_at, text_list_t, text_at
    use camroller_samples, only : sample_names, sample_sobol, sample_latin_hypercube, sample_independent
@@ -40,7 +39,7 @@ module camroller_deck_sweep
       !> As `group.key`
       character(len=:), allocatable :: key
       !> Unit of its values; `1` for none
-      character(len=unit_name_length) :: unit = "1"
+      character(len=name_length) :: unit = "1"
       !> Are the values numbers, and whole ones?
       logical :: is_numeric = .false., is_whole = .false.
       !> Its values as text; none for a range

@@ -3,7 +3,7 @@
 !> In: settings. Out: `sweep_t`, or mistakes at the place of the key that is wrong.
 module camroller_deck_sweep_read
    use camroller_kinds, only : wp
-   use camroller_number_text, only : integer_text, is_beyond_range, is_number
+   use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t, add_mistake, shown
    use camroller_samples, only : sobol_axes
    use camroller_deck_schema, only : schema_t, type_number, type_integer, type_numbers, type_integers, type_words
@@ -16,18 +16,15 @@ module camroller_deck_sweep_read
    use camroller_deck_sweep, only : axis_of, axis_size, get_sweep_value, is_sample, most_cases, &
       & repeated_value, sweep_axis_t, sweep_size, sweep_t
    use camroller_key_uses, only : is_idle, say_idle
-   use camroller_text_list, only : new_text_list, put_text_at, text_at
-   use camroller_case_columns, only : column_t, column_reader_t, measured_prefix, nothing_measured
-   use camroller_sweep_table, only : read_columns
+   use camroller_text_list, only : new_text_list, put_text_at
+   use camroller_case_columns, only : column_t, column_reader_t, measured_prefix
+   use camroller_sweep_table, only : add_measured, read_columns
    use camroller_text_file, only : join_path
    use camroller_error, only : error_t
    implicit none
    private
 
    public :: read_sweep
-
-   !> What the name of a column of measured values may consist of
-   character(len=*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"
 
 contains
 
@@ -459,42 +456,5 @@ contains
       end do
       if (mistakes%count == 0 .and. size(sweep%axes) == 0) call add_mistake(mistakes, "the table names no key", 0, 0, 0, path)
    end subroutine read_table_axes
-
-   !> A column of measured values, headed as `measured.run` or, in quotes, `measured.torque [N m]`.
-   subroutine add_measured(path, column, sweep, mistakes)
-      !> Path of the table
-      character(len=*), intent(in) :: path
-      !> The column
-      type(column_t), intent(in) :: column
-      !> The sweep
-      type(sweep_t), intent(inout) :: sweep
-      !> Mistakes so far
-      type(mistakes_t), intent(inout) :: mistakes
-
-      character(len=:), allocatable :: cell
-      type(sweep_axis_t) :: measured
-      integer :: i, opening
-
-      measured%is_numeric = .true.
-      opening = index(column%key//" [", " [")
-      measured%key = column%key(len(measured_prefix) + 1:opening - 1)
-      measured%unit = "1"
-      if (opening < len(column%key)) measured%unit = column%key(opening + 2:index(column%key//"]", "]") - 1)
-      measured%values = column%cells
-      if (measured%key == "" .or. verify(measured%key, letters) > 0) then
-         call add_mistake(mistakes, "'"//column%key//"': the name behind '"//measured_prefix// &
-            & "' consists of letters, digits and underscores", 0, 0, 0, path)
-      else if (any([(sweep%measured(i)%key == measured%key, i=1, size(sweep%measured))])) then
-         call add_mistake(mistakes, "'"//column%key//"' is there twice", 0, 0, 0, path)
-      end if
-      do i = 1, column%cells%count
-         cell = text_at(column%cells, i)
-         if (cell == nothing_measured) cycle
-         if (is_number(cell) .and. .not. is_beyond_range(cell)) cycle
-         call add_mistake(mistakes, "value "//integer_text(i)//" of "//column%key//" is no number; '"//nothing_measured// &
-            & "' stands where nothing was measured", column%lines(i), 0, 0, path)
-      end do
-      sweep%measured = [sweep%measured, measured]
-   end subroutine add_measured
 
 end module camroller_deck_sweep_read

@@ -1,27 +1,32 @@
 !> Tables of cases: one column for each key that varies, one row for each case, from a text or a file that a reader takes.
 !>
-!> In: a path. Out: columns of texts under the names of their keys. In text, the first line that is no comment
-!> holds the names, as `group.key`. Columns are parted by semicolons where that line has one, by commas where it has one of them, by
-!> blanks or tabulators else. Names and values may stand in quotes, a word that begins with `#` or `!` begins a comment.
+!> In: a path. Out: columns of texts under the names of their keys; measured values in the sweep. In text, the first line that is no
+!> comment holds the names, as `group.key`. Columns are parted by semicolons where that line has one, by commas where it has one of
+!> them, by blanks or tabulators else. Names and values may stand in quotes, a word that begins with `#` or `!` begins a comment.
 module camroller_sweep_table
    use camroller_error, only : error_t
    use camroller_mistakes, only : mistakes_t, add_mistake, shown
    use camroller_text_lines, only : text_lines_t, split_lines, line_at
-   use camroller_number_text, only : counted, integer_text, is_number
+   use camroller_number_text, only : counted, integer_text, is_beyond_range, is_number
+   use camroller_deck_sweep, only : sweep_axis_t, sweep_t
    use camroller_deck_values, only : next_word, longest_text
    use camroller_table_file, only : on_commas
    use camroller_quotes, only : without_quotes
    use camroller_text_encoding, only : check_encoding
    use camroller_text_file, only : read_text_file
-   use camroller_text_list, only : new_text_list, put_text_at
+   use camroller_text_list, only : new_text_list, put_text_at, text_at
    use camroller_case_columns, only : column_t, column_reader_t, measured_prefix, nothing_measured
    implicit none
    private
 
-   public :: read_columns
+   public :: read_columns, add_measured
 
    !> Most columns of a table
    integer, parameter :: most_columns = 64
+   !> Letters of the longest name of a column of measured values
+   integer, parameter :: longest_measured = 64
+   !> What such a name may consist of
+   character(len=*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"
 
    !> Words of a line
    type :: row_t
@@ -267,5 +272,69 @@ contains
       verdict = i > 0
       if (verdict) verdict = is_number(word(:i - 1)//"."//word(i + 1:))
    end function has_decimal_comma
+
+   !> A column of measured values, headed as `measured.run` or, in quotes, `measured.torque [N m]`.
+   subroutine add_measured(path, column, sweep, mistakes)
+      !> Path of the table
+      character(len=*), intent(in) :: path
+      !> The column
+      type(column_t), intent(in) :: column
+      !> The sweep
+      type(sweep_t), intent(inout) :: sweep
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      character(len=:), allocatable :: cell, words
+      type(sweep_axis_t) :: measured
+      integer :: i, opening
+
+      measured%is_numeric = .true.
+      opening = index(column%key//" [", " [")
+      measured%key = column%key(len(measured_prefix) + 1:opening - 1)
+      measured%unit = "1"
+      measured%values = column%cells
+      if (measured%key == "" .or. verify(measured%key, letters) > 0) then
+         call add_mistake(mistakes, "'"//column%key//"': the name behind '"//measured_prefix// &
+            & "' consists of letters, digits and underscores", 0, 0, 0, path)
+      else if (any([(sweep%measured(i)%key == measured%key, i=1, size(sweep%measured))])) then
+         call add_mistake(mistakes, "'"//column%key//"' is there twice", 0, 0, 0, path)
+      else if (len(measured%key) > longest_measured) then
+         call add_mistake(mistakes, "'"//column%key//"': the name behind '"//measured_prefix//"' has "// &
+            & integer_text(len(measured%key))//" letters; the longest has "//integer_text(longest_measured), 0, 0, 0, path)
+      else if (opening < len(column%key)) then
+         call read_unit(column%key(opening + 1:), measured%unit, words)
+         if (words /= "") call add_mistake(mistakes, "'"//column%key//"': "//words, 0, 0, 0, path)
+      end if
+      do i = 1, column%cells%count
+         cell = text_at(column%cells, i)
+         if (cell == nothing_measured) cycle
+         if (is_number(cell) .and. .not. is_beyond_range(cell)) cycle
+         call add_mistake(mistakes, "value "//integer_text(i)//" of "//column%key//" is no number; '"//nothing_measured// &
+            & "' stands where nothing was measured", column%lines(i), 0, 0, path)
+      end do
+      sweep%measured = [sweep%measured, measured]
+   end subroutine add_measured
+
+   !> Unit of a column of measured values.
+   pure subroutine read_unit(text, unit, reason)
+      !> What stands behind the name
+      character(len=*), intent(in) :: text
+      !> The unit
+      character(len=*), intent(inout) :: unit
+      !> What is wrong; empty where nothing is
+      character(len=:), allocatable, intent(out) :: reason
+
+      integer :: width
+
+      reason = ""
+      width = len(text) - 2
+      if (width < 1 .or. scan(text, "[") /= 1 .or. scan(text, "]") /= len(text)) then
+         reason = "behind the name stands nothing but the unit in brackets, as in 'measured.torque [N m]'"
+      else if (width > len(unit)) then
+         reason = "the unit has "//integer_text(width)//" letters; the longest has "//integer_text(len(unit))
+      else
+         unit = text(2:len(text) - 1)
+      end if
+   end subroutine read_unit
 
 end module camroller_sweep_table

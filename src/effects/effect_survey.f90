@@ -17,7 +17,7 @@ module camroller_effect_survey
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state
-   use camroller_balance, only : follow_balance, least_slip
+   use camroller_balance, only : follow_balance
    use camroller_spin, only : decay_rate_of, slip_rate, surface_rate
    use camroller_stick, only : has_stick
    implicit none
@@ -48,8 +48,6 @@ module camroller_effect_survey
       type(grid_t) :: grid
       !> Sliding speed of the balance, and delayed; error that the latter may have [m/s]
       real(wp) :: balance(points), sliding(points), error(points)
-      !> Largest sliding speed of the balance, or what counts as none where that is less [m/s]
-      real(wp) :: scale
       !> Decay rate [1/rad]
       real(wp) :: decay(points)
       !> State at the delayed sliding speed
@@ -120,7 +118,6 @@ contains
          survey%decay(i) = decay_rate_of(model, survey%states(i)%contact)
       end do
       survey%evaluations = survey%evaluations + points
-      survey%scale = max(maxval(abs(survey%balance)), least_slip*maxval(abs(survey%states%contact%rolling_speed)))
       if (is_nearly_lost(survey%states)) survey%trouble = "contact is lost or nearly so"
       if (allocated(survey%trouble)) return
       call estimate_uncertainty(model, balance_decay, survey)

@@ -45,8 +45,8 @@ module camroller_ehl_cycle
       !> Nodes [half widths]; pressure [Pa], film [m] and, of warm contacts, rise of its temperature [K] there at the accepted
       !> angles, on request
       real(wp), allocatable :: nodes(:), pressure(:, :), film(:, :), film_rise(:, :)
-      !> Work: steps tried, of them refused, rounds of film and forces, factorisations, cycles
-      integer :: tried = 0, refused = 0, rounds = 0, factorisations = 0, turns = 1
+      !> Work: steps tried, of them refused, rounds of film and forces, cycles
+      integer :: tried = 0, refused = 0, rounds = 0, turns = 1
    end type ehl_cycle_t
 
    !> First angle of the cycle and run-up before it [rad]
@@ -141,7 +141,6 @@ contains
       end do
       cycle%angle = cycle%moments%angle
       cycle%nodes = march%grid%x
-      cycle%factorisations = state%factorisations
       call judge(cycle, history(1)%angle, now, options, error)
    end subroutine integrate_ehl_cycle
 

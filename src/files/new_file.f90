@@ -18,10 +18,14 @@ module camroller_new_file
    implicit none
    private
 
-   public :: new_file_t, check_place, begin_new_file, take_permissions, end_new_file, drop_new_file, save_text
+   public :: new_file_t, check_place, begin_new_file, take_permissions, end_new_file, drop_new_file, save_text, unfinished_beginning
 
    !> Names that are tried for an unfinished file
    integer, parameter :: most_attempts = 100
+   !> What is added to the name of a file that is not finished, before the numbers of process and attempt
+   character(len=*), parameter :: unfinished_mark = ".unfinished-"
+   !> Letters that are left of its name: file systems take 255, and the numbers have 20 at most
+   integer, parameter :: kept_letters = 255 - len(unfinished_mark) - 20
 
    !> A file being written
    type :: new_file_t
@@ -103,12 +107,22 @@ contains
       if (facts%is_there) file%permissions = facts%permissions
       if (facts%is_there) file%place = resolve_path(path)
       do attempt = 0, most_attempts - 1
-         file%temporary = file%place//".unfinished-"//integer_text(process_number())//"-"//integer_text(attempt)
+         file%temporary = unfinished_beginning(file%place)//integer_text(process_number())//"-"//integer_text(attempt)
          facts = facts_of_path(file%temporary)
          if (.not. facts%is_there) exit
       end do
       call remember_unfinished(file%temporary)
    end subroutine begin_new_file
+
+   !> What the path of a file begins with while it is not finished: its own, cut where the name would become too long.
+   pure function unfinished_beginning(path) result(beginning)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> The beginning, before the numbers of process and attempt
+      character(len=min(len(path), index(path, "/", back=.true.) + kept_letters) + len(unfinished_mark)) :: beginning
+
+      beginning = path(:len(beginning) - len(unfinished_mark))//unfinished_mark
+   end function unfinished_beginning
 
    !> Let those read and write an unfinished file who may do so with the file that it replaces.
    subroutine take_permissions(file)

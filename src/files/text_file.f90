@@ -7,6 +7,7 @@ module camroller_text_file
    use camroller_c_library, only : c_access, c_fclose, c_fopen, c_fread, c_fseek, c_ftell
    use camroller_error, only : error_t, raise, kind_file
    use camroller_file_facts, only : facts_of_path, file_facts_t, kind_in_words
+   use camroller_number_text, only : integer_text
    use camroller_system_file, only : error_number, system_words
    implicit none
    private
@@ -33,24 +34,30 @@ contains
       character(len=:), allocatable :: longer
       character(len=1) :: letter
       integer :: unit, status, length
+      logical :: is_too_long
 
       text = ""
+      is_too_long = .false.
       open (newunit=unit, file="/dev/stdin", access="stream", form="unformatted", action="read", iostat=status)
       if (status == 0) then
          allocate (character(len=1024) :: longer)
          length = 0
-         do while (length < largest_size)
+         do
             read (unit, iostat=status) letter
-            if (status /= 0) exit
+            if (status /= 0 .or. length >= largest_size) exit
             length = length + 1
             if (length > len(longer)) longer = longer//repeat(" ", len(longer))
             longer(length:length) = letter
          end do
          close (unit)
          text = longer(:length)
+         is_too_long = status == 0
          status = merge(1, 0, length == 0)
       end if
-      if (status /= 0) then
+      if (is_too_long) then
+         call raise(error, kind_file, "the standard input is too large for a deck: more than "// &
+            & integer_text(int(largest_size/1024_int64/1024_int64))//" MB")
+      else if (status /= 0) then
          call raise(error, kind_file, "nothing can be read from the standard input")
       else if (.not. is_text(text)) then
          call raise(error, kind_file, "the standard input is no text: it holds bytes that no text has")

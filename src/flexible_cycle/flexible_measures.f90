@@ -23,9 +23,9 @@ module camroller_flexible_measures
    implicit none
    private
 
-   public :: measure_t, measures, measure_count, measure_turn, pivot_force, largest_lift, largest_load, largest_load_angle, &
-      & smallest_event_load, event_pivot_force, least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, &
-      & float_share, losses_of_contact, drive_torque, loss_torque, damping_torque, smallest_pivot_force, tension_share, &
+   public :: measures, measure_count, measure_turn, pivot_force, largest_lift, largest_load, largest_load_angle, &
+      & smallest_event_load, event_pivot_force, least_lift_error, seating_speed, bounce_height, bounces, &
+      & losses_of_contact, drive_torque, loss_torque, damping_torque, smallest_pivot_force, tension_share, &
       & surge_force, coil_ratio, coil_compression, lowest_plunger, highest_plunger, largest_chamber_pressure, leak_volume, &
       & check_share, residual_work, &
       & gallery_torque, event_check_share, damper_works, lift_at_nose, speed_at_nose, smallest_lift, closed_load

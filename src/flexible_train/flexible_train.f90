@@ -25,7 +25,7 @@ module camroller_flexible_train
    implicit none
    private
 
-   public :: flexible_state_t, resolution_t, push_t, state_size, first_mode, evaluate_train, rates_of, pad_approach, &
+   public :: flexible_state_t, resolution_t, state_size, first_mode, evaluate_train, rates_of, pad_approach, &
       & pad_direction, stem_motion, valve_axis
    public :: at_finger, at_finger_rate, at_lift, at_speed, at_sliding, at_plunger, at_plunger_rate, at_pressure, largest_state
 

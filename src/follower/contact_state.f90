@@ -9,7 +9,7 @@ module camroller_contact_state
    implicit none
    private
 
-   public :: contact_t, setting_t, heat_slopes_t, parts_t, motion_t, slopes_t, follow_strip, length_changes, release_contact
+   public :: contact_t, setting_t, parts_t, motion_t, slopes_t, follow_strip, length_changes, release_contact
 
    !> State of the contact
    type :: contact_t

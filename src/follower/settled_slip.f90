@@ -6,7 +6,7 @@
 !> error that is negligible for the slip is large for the traction.
 module camroller_settled_slip
    use camroller_contact_traction, only : largest_shear
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : two_pi, wp
    use camroller_model, only : model_t
    use camroller_ode_bridge, only : solve_euler
    use camroller_ode_problem, only : counters_t
@@ -86,7 +86,8 @@ contains
       problem%nearby => nearby
       problem%model => model
       problem%accuracy = accuracy
-      step = reach/(span + abs(slope))
+      ! One turn at most, where forces are next to nothing
+      step = reach/max(span + abs(slope), reach/two_pi)
       call solve_euler(problem, span, angle, sliding_speed - step*slope, step, settled, new_rate, counters, status)
       ! Where the traction does not saturate nearby, so short a step changes next to nothing
       if (status /= 0 .or. .not. abs(new_rate - slope) < settled_part*abs(rate - slope)) return

@@ -7,8 +7,8 @@
 module camroller_hdf5_read
    use, intrinsic :: iso_c_binding, only : c_associated, c_loc, c_null_ptr, c_ptr
    use, intrinsic :: iso_fortran_env, only : int64
-   use hdf5, only : hid_t, hsize_t, h5aclose_f, h5aexists_f, h5aget_space_f, h5aget_type_f, h5aopen_f, h5aread_f, h5dclose_f, &
-      & h5dget_space_f, h5dget_storage_size_f, h5dread_f, h5dvlen_reclaim_f, h5fis_hdf5_f, h5fopen_f, h5gclose_f, &
+   use hdf5, only : hid_t, hsize_t, size_t, h5aclose_f, h5aexists_f, h5aget_space_f, h5aget_type_f, h5aopen_f, h5aread_f, &
+      & h5dclose_f, h5dget_space_f, h5dget_storage_size_f, h5dread_f, h5dvlen_reclaim_f, h5fis_hdf5_f, h5fopen_f, h5gclose_f, &
       & h5gget_info_f, h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5oclose_f, h5oopen_f, h5sclose_f, &
       & h5sselect_hyperslab_f, h5tclose_f, h5f_acc_rdonly_f, h5p_default_f, h5s_select_set_f, h5t_native_double, &
       & h5t_native_integer, h5_index_crt_order_f, h5_index_name_f, h5_iter_inc_f
@@ -19,6 +19,7 @@ module camroller_hdf5_read
    use camroller_hdf5_object, only : hdf5_object_t, open_space, open_text_type
    use camroller_hdf5_shape, only : check_kind, check_rank, find_shape, of_numbers, of_texts, open_dataset, raise_read, shape_t
    use camroller_library_watch, only : begin_call, end_call
+   use camroller_number_text, only : integer_text
    use camroller_seal, only : check_seal
    use camroller_system_file, only : text_at_address
    implicit none
@@ -29,6 +30,8 @@ module camroller_hdf5_read
 
    !> Longest name of a member that can be listed
    integer, parameter :: member_length = 128
+   !> Letters of a longer name that a message shows
+   integer, parameter :: shown_letters = 32
    !> Most bytes that deflate makes of one, and most that a link in a group takes at least
    integer, parameter :: largest_ratio = 1032, smallest_link = 8
 contains
@@ -103,10 +106,13 @@ contains
       character(len=*), intent(in) :: group
       !> Names of its members
       character(len=member_length), allocatable, intent(out) :: names(:)
-      !> File error
+      !> File error, also where a name is too long
       type(error_t), allocatable, intent(out) :: error
 
       integer(hid_t) :: id
+      character(len=shown_letters) :: beginning
+      ! Letters of a name
+      integer(size_t) :: letters
       integer :: status, ignored, storage, count, highest, order, i
 
       count = 0
@@ -128,12 +134,18 @@ contains
          if (status /= 0) exit
          names(i) = ""
          call begin_call(file%file)
-         call h5lget_name_by_idx_f(file%id, group, order, h5_iter_inc_f, int(i - 1, hsize_t), names(i), status)
+         call h5lget_name_by_idx_f(file%id, group, order, h5_iter_inc_f, int(i - 1, hsize_t), names(i), status, letters)
          if (status /= 0 .and. i == 1) then
             order = h5_index_name_f
-            call h5lget_name_by_idx_f(file%id, group, order, h5_iter_inc_f, int(i - 1, hsize_t), names(i), status)
+            call h5lget_name_by_idx_f(file%id, group, order, h5_iter_inc_f, int(i - 1, hsize_t), names(i), status, letters)
          end if
          call end_call()
+         if (status == 0 .and. letters > member_length) then
+            beginning = names(i)
+            call raise(error, kind_file, "cannot list '"//group//"' of '"//file%file//"': the name that begins with '"// &
+               & beginning//"' has "//integer_text(int(letters))//" letters, more than "//integer_text(member_length))
+            return
+         end if
       end do
       if (status /= 0) call raise_hdf5(error, "cannot list '"//group//"' of '"//file%file//"'")
    end subroutine list_members

@@ -14,7 +14,7 @@ module camroller_case_facts
    use camroller_oil_checks, only : compare_hths
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_number_text, only : number_text, fixed_text
-   use camroller_result, only : find_quantity, get_summary, result_t
+   use camroller_result, only : find_quantity, get_summary, result_t, severest
    use camroller_run, only : build_models, run_case
    implicit none
    private
@@ -258,14 +258,15 @@ contains
       ! Of the speeds that are shown [rev/min over rad/s]
       real(wp) :: speed_factor
       character(len=:), allocatable :: unit
-      logical :: has_lash
+      logical :: has_lash, has_profile
 
+      has_profile = find_quantity(result%summary, "max_axial_pressure_max") > 0
       associate (turns => model%crank_turns)
          speed_factor = per_minute*merge(turns, 1.0_wp, turns > 0.0_wp)
          unit = " rev/min of the "//trim(merge("crankshaft", "camshaft  ", turns > 0.0_wp))
       end associate
       call add_value(name//" contact load up to ", "max_contact_load", 1.0_wp)
-      call add_value(" N, pressure up to ", "max_hertz_pressure", 1.0e-9_wp)
+      call add_value(" N, pressure up to ", "max_"//trim(severest("hertz_pressure", has_profile)), 1.0e-9_wp)
       call add_value(" GPa, film ratio ", "min_film_ratio", 1.0_wp)
       call add_value(" to ", "max_film_ratio", 1.0_wp)
       call add_value(n//name//" smallest load of the event ", "margin_event", 1.0_wp)

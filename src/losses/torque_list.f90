@@ -9,7 +9,7 @@ module camroller_torque_list
    implicit none
    private
 
-   public :: torque_row_t, torque_list, torque_count, is_loss, is_torque, torque_series
+   public :: torque_list, torque_count, is_loss, is_torque, torque_series
    public :: of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, &
       & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_residual
 

@@ -11,7 +11,7 @@ module camroller_deck_schema
    implicit none
    private
 
-   public :: schema_t, group_t, key_t, range_t
+   public :: schema_t, key_t, range_t
    public :: add_group, add_number, add_integer, add_logical, add_name, add_text, add_numbers, add_integers, add_words
    public :: find_group, find_key, say_allowed, say_usual, group_names, key_names
    public :: group_required, group_standard, group_effect

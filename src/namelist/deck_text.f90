@@ -11,7 +11,7 @@ module camroller_deck_text
    implicit none
    private
 
-   public :: deck_text_t, group_place_t, assignment_t, read_shape, to_lower
+   public :: deck_text_t, assignment_t, read_shape, to_lower
 
    !> Where a group begins
    type :: group_place_t

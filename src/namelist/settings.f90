@@ -8,7 +8,7 @@ module camroller_settings
    implicit none
    private
 
-   public :: settings_t, section_t, find_value, take, is_known, is_wrong, get_word, has_group, group_position
+   public :: settings_t, find_value, take, is_known, is_wrong, get_word, has_group, group_position
 
    !> One group
    type :: section_t

@@ -12,7 +12,7 @@ module camroller_ode_methods
    implicit none
    private
 
-   public :: method_facts_t, method_facts, method_names, new_method
+   public :: method_facts, method_names, new_method
 
    !> What is known of a method beforehand
    type :: method_facts_t

@@ -21,7 +21,7 @@ module camroller_ode_switching
    public :: switching_problem_t, integrate_switching
 
    !> Most switches and markers of a problem
-   integer, parameter, public :: most_switches = 4
+   integer, parameter :: most_switches = 4
 
    !> A problem whose right-hand side has kinks where a switch is zero, or a marker a whole number
    type, abstract, extends(problem_t) :: switching_problem_t

@@ -10,7 +10,7 @@ module camroller_result_table
    use camroller_hdf5_read, only : has_member, list_members, member_length, read_numbers
    use camroller_names, only : name_length
    use camroller_number_text, only : integer_text, number_text, right_text
-   use camroller_result, only : worse_of
+   use camroller_result, only : severest, worse_of
    use camroller_result_columns, only : make_columns, open_result, read_column, table_t
    use camroller_torque_list, only : torque_count, torque_list, torque_series
    implicit none
@@ -142,10 +142,10 @@ contains
          & column_t("mean_", "torque_friction", "all friction", "N mm", 1.0e3_wp), &
          & column_t("fmep_", "friction", "fmep", "kPa", 1.0e-3_wp), &
          & column_t("mean_", "slip_ratio", "mean slip", "%", 1.0e2_wp), &
-         & column_t("max_", merge("axial_pressure_max", "hertz_pressure    ", &
-         & has_member(file, "/summary/max_axial_pressure_max")), "peak pressure", "GPa", 1.0e-9_wp), &
+         & column_t("max_", "hertz_pressure", "peak pressure", "GPa", 1.0e-9_wp), &
          & column_t("min_", "film_thickness_min", "smallest film", "um", 1.0e6_wp), &
          & column_t("min_", "film_ratio", "film ratio", "1", 1.0_wp)]
+      columns%series = severest(columns%series, has_member(file, "/summary/max_axial_pressure_max"))
       columns = pack(columns, columns%heading /= "")
       columns = pack(columns, [(has_member(file, path_of(columns(i), 1)), i=1, size(columns))])
    end function shown_columns

@@ -8,8 +8,9 @@ module camroller_laws_page
    use camroller_case, only : case_t
    use camroller_catalogue, only : lobe_prefix
    use camroller_film, only : film_law_names, law_masjedi_khonsari_rough
+   use camroller_names, only : name_length
    use camroller_number_text, only : integer_text, number_text, right_text
-   use camroller_result, only : find_quantity, get_summary, result_t, worse_of
+   use camroller_result, only : find_quantity, get_summary, result_t, severest, worse_of
    use camroller_run, only : run_case
    implicit none
    private
@@ -20,7 +21,7 @@ module camroller_laws_page
    type :: column_t
       !> Scalar of the summary: what of a series, its name
       character(len=5) :: statistic
-      character(len=24) :: series
+      character(len=name_length) :: series
       !> Heading with unit
       character(len=24) :: heading
       !> What the value is multiplied with [unit/SI unit]
@@ -46,12 +47,13 @@ contains
       type(case_t), intent(in) :: case
       !> Lines so far
       character(len=:), allocatable, intent(inout) :: text
-      !> Why the case has no result with its own law, or, where that is numerical, with any
+      !> Why the case has no result with its own law, or, where its own film is solved numerically, with any
       type(error_t), allocatable, intent(out) :: error
 
       type(case_t) :: variant
       type(result_t) :: result
-      type(error_t), allocatable :: failure
+      ! Why the law of a line has no result, and why the case's own law has none
+      type(error_t), allocatable :: failure, of_own
       ! Values of the laws [unit of the column]
       real(wp) :: values(size(columns)), smallest(size(columns)), largest(size(columns))
       character(len=:), allocatable :: line, worst
@@ -77,7 +79,7 @@ contains
          line = line//repeat(" ", max(0, first_width - len(line)))
          if (allocated(failure)) then
             text = text//n//line(:first_width)//"  "//failure%message
-            if (line(:1) == ">") error = failure
+            if (line(:1) == ">") of_own = failure
             cycle
          end if
          laws = laws + 1
@@ -101,7 +103,9 @@ contains
          text = text//n//line
       end if
       if (worst /= "") text = text//n//"  "//worst//": the worst of all lobe shapes"
-      if (laws == 0 .and. .not. allocated(error)) call move_alloc(failure, error)
+      if (allocated(case%ehl)) text = text//n//"  the film of the deck itself is solved, by &ehl, and follows none of these laws"
+      if (laws == 0 .and. .not. allocated(of_own)) call move_alloc(failure, of_own)
+      call move_alloc(of_own, error)
    end subroutine add_laws_table
 
    !> Values of the columns.
@@ -115,24 +119,27 @@ contains
       !> Usage error where the result lacks one
       type(error_t), allocatable, intent(out) :: error
 
+      type(column_t) :: shown(size(columns))
       ! Value of another lobe shape [unit of the column]
       real(wp) :: other
       integer :: i, lobe
 
       worst = ""
-      do i = 1, size(columns)
-         call get_summary(result, name_of(columns(i), 1), values(i), error)
+      shown = columns
+      shown%series = severest(columns%series, find_quantity(result%summary, "max_axial_pressure_max") > 0)
+      do i = 1, size(shown)
+         call get_summary(result, name_of(shown(i), 1), values(i), error)
          if (allocated(error)) return
          lobe = 2
-         do while (find_quantity(result%summary, name_of(columns(i), lobe)) > 0)
-            call get_summary(result, name_of(columns(i), lobe), other, error)
+         do while (find_quantity(result%summary, name_of(shown(i), lobe)) > 0)
+            call get_summary(result, name_of(shown(i), lobe), other, error)
             if (allocated(error)) return
-            values(i) = worse_of(columns(i)%statistic, values(i), other)
+            values(i) = worse_of(shown(i)%statistic, values(i), other)
             if (lobe == 2 .and. worst /= "") worst = worst//", "
-            if (lobe == 2) worst = worst//heading_of(columns(i))
+            if (lobe == 2) worst = worst//heading_of(shown(i))
             lobe = lobe + 1
          end do
-         values(i) = columns(i)%factor*values(i)
+         values(i) = shown(i)%factor*values(i)
       end do
    end subroutine get_values
 

@@ -8,6 +8,7 @@ module camroller_result_claim
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
    use camroller_text_lines, only : line_t
+   use camroller_new_file, only : unfinished_beginning
    use camroller_output_kind, only : result_kind
    use camroller_part_file, only : part_beginning
    use camroller_raw_file, only : append_words, close_raw, find_files, is_locked, lock_raw, open_raw, raw_file_t, read_words, &
@@ -106,13 +107,14 @@ contains
       !> Path of the result file
       character(len=*), intent(in) :: path
 
-      character(len=*), parameter :: ending = ".unfinished-"
       type(line_t), allocatable :: paths(:)
+      character(len=:), allocatable :: beginning
       integer :: i
 
-      call find_files(path//ending, paths)
+      beginning = unfinished_beginning(path)
+      call find_files(beginning, paths)
       do i = 1, size(paths)
-         if (verify(paths(i)%text(len(path) + len(ending) + 1:), "0123456789-") > 0) cycle
+         if (verify(paths(i)%text(len(beginning) + 1:), "0123456789-") > 0) cycle
          if (is_ours(paths(i)%text)) call remove_file(paths(i)%text)
       end do
    end subroutine remove_unfinished

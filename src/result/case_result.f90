@@ -19,13 +19,12 @@ module camroller_case_result
    use camroller_series_extremes, only : series_extremes_t, find_extremes, find_lobe_extremes
    use camroller_heat_remarks, only : judge_heat
    use camroller_margins, only : margins_t, find_margins
-   use camroller_names, only : name_length
    use camroller_oil_checks, only : find_far_points, judge_estimate
-   use camroller_remarks, only : add_remark, cold_estimate, far_temperature
-   use camroller_result, only : result_t, quantity_t, check_numbers, find_quantity
+   use camroller_remarks, only : add_remark, cold_estimate, far_temperature, remark_t
+   use camroller_result, only : result_t, quantity_t, check_numbers, find_quantity, series_name_length, severest
    use camroller_part_series, only : bearing_count, bearing_series_count
    use camroller_bearing_turn, only : complete_shaft
-   use camroller_shaft, only : new_shaft, shaft_torques, solved_t
+   use camroller_shaft, only : new_shaft, shaft_t, shaft_torques, solved_t
    use camroller_camshaft_statistics, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_flexible_report, only : compare_turns, flexible_means_t, integrate_turns, list_turns
@@ -179,7 +178,7 @@ contains
       ! Error of both [-]
       real(wp) :: bearing_error
       ! Name of the series that this is the error of
-      character(len=name_length) :: worst
+      character(len=series_name_length) :: worst
       integer :: lobe
 
       allocate (result%remarks(0))
@@ -219,7 +218,7 @@ contains
       call make_summary(solved, statistics, bearing_torque, of_bearings, margins, extremes, result)
       call list_turns(cycles, result)
       call judge_extremes(case, models, statistics, result)
-      call judge_temperature(case, result)
+      call judge_temperature(case, solved%shaft, result%remarks)
       call judge_heat(solved, films, bearing_torque, result)
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)
@@ -243,8 +242,8 @@ contains
          associate (named => merge(lobe, 0, size(models) > 1))
             call judge_films(statistics(lobe), find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))// &
                & "asperity_friction_share") > 0, named, result%remarks)
-            pressure = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"axial_pressure_max")
-            if (pressure == 0) pressure = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"hertz_pressure")
+            pressure = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//trim(severest("hertz_pressure", &
+               & allocated(case%roller_profile))))
             call judge_pressure(models(lobe), result%summary_values(pressure), named, result%remarks)
             pin = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"pin_film_min")
             if (pin > 0) call judge_pin(case%needle_bearing%film%roughness, result%summary_values(pin), named, result%remarks)
@@ -253,30 +252,24 @@ contains
    end subroutine judge_extremes
 
    !> Remarks on a temperature of the oil far from all at which its laws are given, or beyond what they are estimated for.
-   subroutine judge_temperature(case, result)
+   subroutine judge_temperature(case, shaft, remarks)
       !> The case
       type(case_t), intent(in) :: case
-      !> Gets the remark
-      type(result_t), intent(inout) :: result
+      !> Its camshafts
+      type(shaft_t), intent(in) :: shaft
+      !> Get the remarks
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       ! Way beyond the points, largest rise in a bearing [K]
       real(wp) :: distance, rise
       character(len=:), allocatable :: words
-      integer :: i
 
       rise = 0.0_wp
-      if (allocated(case%bearing_heat)) then
-         do i = 1, size(result%summary)
-            associate (name => result%summary(i)%name)
-               if (index(name, "max_bearing_") /= 1 .or. index(name, "_temperature_rise") == 0) cycle
-            end associate
-            rise = max(rise, result%summary_values(i))
-         end do
-      end if
+      if (allocated(shaft%rises)) rise = max(rise, maxval(shaft%rises))
       call find_far_points(case, rise, distance, words)
-      if (distance > 0.0_wp) call add_remark(result%remarks, far_temperature, words, distance)
+      if (distance > 0.0_wp) call add_remark(remarks, far_temperature, words, distance)
       call judge_estimate(case, distance, words)
-      if (distance > 0.0_wp) call add_remark(result%remarks, cold_estimate, words, distance)
+      if (distance > 0.0_wp) call add_remark(remarks, cold_estimate, words, distance)
    end subroutine judge_temperature
 
    !> Cam angles of the output, 0 to 360 with the nose at 180, end point left out [deg].

@@ -363,7 +363,7 @@ contains
       do i = 1, size(solution%mean)
          associate (measure => measures(i))
             if (i == largest_load_angle) then
-               call add(trim(measure%name), "deg", trim(measure%meaning), file_angle(solution%mean(i)))
+               call add(trim(measure%name), "degree", trim(measure%meaning), file_angle(solution%mean(i)))
                cycle
             end if
             call add(trim(measure%name), trim(measure%unit), trim(measure%meaning), solution%mean(i))

@@ -71,7 +71,7 @@ contains
          & "estimate of the largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest "// &
          & "speed in pure rolling)", "numerics", maxval(statistics%error))
       worst = maxloc(statistics%error, 1)
-      call add(list, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
+      call add(list, "estimated_error_angle", "degree", "cam angle where the estimated error is largest", &
          & "numerics", file_angle(statistics(worst)%error_angle))
       call add(list, "estimated_error_of_means", "1", "estimate of the largest error of a mean relative "// &
          & "to the mean magnitude of its quantity, of geometric and drive torque relative to the mean friction torque; "// &
@@ -347,7 +347,7 @@ contains
 
          call add(list, "margin_"//name, "N", "smallest "//force//", without friction", "dynamics", &
             & margin%force)
-         call add(list, "margin_"//name//"_angle", "deg", "cam angle of margin_"//name, "dynamics", &
+         call add(list, "margin_"//name//"_angle", "degree", "cam angle of margin_"//name, "dynamics", &
             & file_angle(margin%angle))
          call add(list, "margin_"//name//"_speed", "rad s-1", "cam speed at which margin_"//name// &
             & " is zero; infinite if never", "dynamics", margin%speed)

@@ -26,7 +26,7 @@ module camroller_part_series
    private
 
    public :: add_asperities, add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
-      & bearing_series_count, largest_pressure, least_force, load_part
+      & bearing_series_count, largest_pressure, least_force, load_part, thinnest_film
 
    !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less counts as none, of asperities and of
    !> friction in joints
@@ -49,20 +49,35 @@ contains
       !> What matters of the load along the roller; zero all over without contact
       type(axial_state_t), intent(out) :: along
 
-      type(film_line_t) :: line
       real(wp) :: film ! [m]
 
       film = 0.0_wp
       along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
       if (allocated(model%axial) .and. state%contact%is_touching) then
          along = state%along
-         call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)
-         line%log_factor = log(state%contact%inlet_factor)
-         film = smallest_film(line, along%peak*state%contact%load/model%contact_width, state%position%equivalent_radius, &
-            & model%modulus, model%boundary)
+         film = thinnest_film(model, state)
       end if
       call add(list, "film_thickness_axial_min", "m", "smallest minimum film along the roller", "roller_profile", film)
    end subroutine add_axial_film
+
+   !> Smallest film of a contact: where along the roller the load is largest.
+   pure function thinnest_film(model, state) result(film)
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower, in contact
+      type(state_t), intent(in) :: state
+      !> The film [m]
+      real(wp) :: film
+
+      type(film_line_t) :: line
+
+      film = state%contact%film_min
+      if (.not. allocated(model%axial)) return
+      call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)
+      line%log_factor = log(state%contact%inlet_factor)
+      film = smallest_film(line, state%along%peak*state%contact%load/model%contact_width, state%position%equivalent_radius, &
+         & model%modulus, model%boundary)
+   end function thinnest_film
 
    !> Largest pressure of the dry contact: in the middle of its width, and where along the roller the load is largest.
    pure function largest_pressure(model, state) result(pressure)

@@ -13,11 +13,13 @@ module camroller_result
    private
 
    public :: quantity_t, quantity_list_t, append_history, append_numbered, append_quantity, take_quantities, result_t, &
-      & get_series, get_summary, find_quantity, check_numbers, is_film, lobe_scope, worse_of
-   public :: scope_length, scope_camshaft, scope_engine, scope_case
+      & get_series, get_summary, find_quantity, check_numbers, is_film, lobe_scope, severest, worse_of
+   public :: scope_length, series_name_length, scope_camshaft, scope_engine, scope_case
 
    !> Length of a scope
    integer, parameter :: scope_length = 28
+   !> Length of the longest name of a series with room to spare: `camshaft_10_bearing_10_temperature_rise` has 39 letters
+   integer, parameter :: series_name_length = 64
    !> Scopes beside those of `lobe_scope`: all followers and bearings of the camshaft, which has a number where there are several;
    !> all camshafts of the engine; the case as a whole
    character(len=*), parameter :: scope_camshaft = "camshaft", scope_engine = "engine  ", scope_case = "case"
@@ -71,9 +73,9 @@ module camroller_result
       !> Remarks that do not make the result wrong
       type(remark_t), allocatable :: remarks(:)
       !> Name of the series whose mean has the largest estimated error; blank where means have none
-      character(len=name_length) :: worst_mean = ""
+      character(len=series_name_length) :: worst_mean = ""
       !> Name of the series of whose extremes one has the largest estimated error
-      character(len=name_length) :: worst_extreme = ""
+      character(len=series_name_length) :: worst_extreme = ""
       !> Were profiles across the contact asked for that could not be solved? The reason is among the remarks
       logical :: lacks_profiles = .false.
       !> Which effects took part and why; allocated where the program chose them
@@ -97,6 +99,21 @@ contains
          worse = merge(other, one, abs(other) > abs(one))
       end if
    end function worse_of
+
+   !> Series of the severest pressure or film in a contact: where the case has the roller's profile, that of the severest place.
+   elemental function severest(series, has_profile) result(name)
+      !> Series of the line contact as a whole
+      character(len=*), intent(in) :: series
+      !> Are there series of places along the roller?
+      logical, intent(in) :: has_profile
+      !> The series; others than pressure and smallest film stay as they are
+      character(len=name_length) :: name
+
+      name = series
+      if (.not. has_profile) return
+      if (series == "hertz_pressure") name = "axial_pressure_max"
+      if (series == "film_thickness_min") name = "film_thickness_axial_min"
+   end function severest
 
    !> Is a series a film of cam and roller? It is zero without contact, and its smallest value that of the angles in contact.
    elemental function is_film(quantity) result(verdict)

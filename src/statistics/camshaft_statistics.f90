@@ -19,7 +19,7 @@ module camroller_camshaft_statistics
    use camroller_means, only : mean_tolerance, most_halvings, statistics_t
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_part_series, only : bearing_count, bearing_series_count, load_part
-   use camroller_result, only : quantity_t, find_quantity
+   use camroller_result, only : quantity_t, find_quantity, series_name_length
    use camroller_shaft, only : bearing_number, shaft_stops, solved_t, shaft_torques, valves_rest
    use camroller_slip_errors, only : error_at, state_without
    use camroller_sorting, only : find_order
@@ -86,7 +86,7 @@ contains
       !> Largest estimate of the error relative to the mean magnitude [-]
       real(wp), intent(out) :: mean_error
       !> Name of the series that this is the error of
-      character(len=*), intent(out) :: worst
+      character(len=series_name_length), intent(out) :: worst
       !> Series of the camshaft at the angles evaluated
       type(samples_t), intent(out) :: rows
       !> Smallest film of each bearing of each camshaft at these angles, in order round a turn [m]

@@ -15,7 +15,7 @@ module camroller_follower_samples
    use camroller_torque_list, only : torque_count, of_geometric, of_roller_inertia
    use camroller_contact_forces, only : contact_t
    use camroller_axial_table, only : slice_width
-   use camroller_hertz, only : peak_pressure
+   use camroller_part_series, only : largest_pressure, thinnest_film
    use camroller_sampled_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
    implicit none
@@ -43,9 +43,9 @@ module camroller_follower_samples
       real(wp) :: contact_load(2) = [huge(1.0_wp), -huge(1.0_wp)], torque_drive(2) = [huge(1.0_wp), -huge(1.0_wp)]
       !> Sliding speed [m/s]
       real(wp) :: sliding_speed(2) = [huge(1.0_wp), -huge(1.0_wp)]
-      !> Largest pressure of the dry contact [Pa]
+      !> Largest pressure of the dry contact, anywhere along the roller [Pa]
       real(wp) :: hertz_pressure = 0.0_wp
-      !> Smallest film where there is contact; huge where there is none [m]
+      !> Smallest film along the roller where there is contact; huge where there is none [m]
       real(wp) :: film_min = huge(1.0_wp)
    end type extremes_t
 
@@ -223,9 +223,8 @@ contains
       call widen_range(extremes%torque_drive, state%torque_drive)
       call widen_range(extremes%sliding_speed, state%contact%sliding_speed)
       if (.not. state%contact%is_touching) return
-      extremes%hertz_pressure = max(extremes%hertz_pressure, peak_pressure(state%contact%load, state%position%equivalent_radius, &
-         & state%contact%length, model%modulus))
-      extremes%film_min = min(extremes%film_min, state%contact%film_min)
+      extremes%hertz_pressure = max(extremes%hertz_pressure, largest_pressure(model, state))
+      extremes%film_min = min(extremes%film_min, thinnest_film(model, state))
    end subroutine widen
 
    !> Let a range take in a value.

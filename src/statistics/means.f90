@@ -22,9 +22,8 @@ module camroller_means
    use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t
    use camroller_slip_errors, only : slip_errors_t, find_slip_errors
    use camroller_lobe_curve, only : lobe_curve_t, move_curve
-   use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, refine_panels
-   use camroller_result, only : quantity_t, find_quantity
+   use camroller_result, only : quantity_t, find_quantity, series_name_length
    use camroller_standstills, only : add_rolling_points, add_standstills, add_surfaces_at_rest, split_at_changes
    use camroller_stored_work, only : stored_work_t, follow_contact, end_work, lost_angle, spin_work, split_at_losses
    implicit none
@@ -50,7 +49,7 @@ module camroller_means
       !> Estimate of the largest error of a mean relative to the mean magnitude of its quantity [-]
       real(wp) :: mean_error = 0.0_wp
       !> The mean that has it
-      character(len=name_length) :: worst_mean = ""
+      character(len=series_name_length) :: worst_mean = ""
       !> Difference of the oil that enters an adjuster and the oil that leaks, over the larger [-]
       real(wp) :: missing_oil = 0.0_wp
       !> What the camshaft takes from the follower
@@ -66,7 +65,7 @@ module camroller_means
       !> Estimate of the largest error of a smallest or largest value relative to the range of its series [-], and the series that
       !> has it
       real(wp) :: extreme_error = 0.0_wp
-      character(len=name_length) :: worst_extreme = ""
+      character(len=series_name_length) :: worst_extreme = ""
       !> Largest central film over the equivalent radius [-], and its cam angle from full lift [rad]
       real(wp) :: thickest_film = 0.0_wp, thickest_angle = 0.0_wp
       !> Number of standstills of the contact, where nothing is entrained

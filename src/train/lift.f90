@@ -16,7 +16,7 @@ module camroller_lift
    private
 
    public :: lift_t, lift_law_t, lift_law_names
-   public :: new_lift_law, evaluate_lift, is_at_rest, is_tabulated, stop_angles, largest_exponent
+   public :: new_lift_law, evaluate_lift, is_at_rest, is_tabulated, stop_angles, highest_lift, largest_exponent
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
@@ -165,6 +165,16 @@ contains
       end select
       values = law%max_lift*f*[1.0_wp, y_1, y_1**2, y_1**3]
    end subroutine evaluate_lift
+
+   !> Largest lift of a law.
+   pure function highest_lift(law) result(lift)
+      !> The law
+      type(lift_law_t), intent(in) :: law
+      !> The lift [m]
+      real(wp) :: lift
+
+      lift = law%max_lift
+   end function highest_lift
 
    !> Is the valve closed, with no lift on either side of the angle but at the ends of the event?
    pure function is_at_rest(law, angle) result(at_rest)

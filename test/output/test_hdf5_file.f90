@@ -31,6 +31,7 @@ contains
          new_unittest("texts of any length come back, unwritten ones as empty", texts_come_back), &
          new_unittest("attributes come back", attributes_come_back), &
          new_unittest("members are listed in the order of their creation", members_keep_their_order), &
+         new_unittest("a member whose name is too long is told, not cut", long_name_is_told), &
          new_unittest("a file that exists is not overwritten", existing_file_is_kept), &
          new_unittest("a missing file is told", missing_file_is_told), &
          new_unittest("a file of another format is told", other_format_is_told), &
@@ -213,6 +214,33 @@ contains
       if (allocated(error)) return
       call check(error, all(names == [character(len=member_length) :: "zebra", "ant", "mouse"]), "another order")
    end subroutine members_keep_their_order
+
+   subroutine long_name_is_told(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(error_t), allocatable :: raised
+      type(hdf5_object_t) :: file, inner
+      character(len=member_length), allocatable :: names(:)
+      character(len=:), allocatable :: path
+      integer :: more
+
+      do more = 0, 1
+         path = scratch_path("long_name")
+         call create_file(file, path, path, raised)
+         call create_group(file, repeat("x", member_length + more), inner, raised)
+         call close_file(file, raised)
+         call open_file(file, path, raised)
+         call list_members(file, "/", names, raised)
+         call discard_file(file)
+         call remove_file(path)
+         if (more == 1) exit
+         call check(error, .not. allocated(raised), "the longest name that can be listed")
+         if (allocated(error)) return
+         call check(error, names(1) == repeat("x", member_length), "it is another")
+         if (allocated(error)) return
+      end do
+      call expect_error(error, raised, kind_file, "has 129 letters, more than 128")
+   end subroutine long_name_is_told
 
    subroutine existing_file_is_kept(error)
       type(error_type), allocatable, intent(out) :: error

@@ -482,3 +482,20 @@ def test_the_library_of_an_fmu_shows_the_functions_of_fmi_alone(cmake_prefix):
     opened = ctypes.CDLL(str(library))
     opened.fmi3GetVersion.restype = opened.fmi2GetVersion.restype = ctypes.c_char_p
     assert opened.fmi3GetVersion() == b"3.0" and opened.fmi2GetVersion() == b"2.0"
+
+
+# Behind the end of the third, in the program's memory, are letters that are not its own
+PLACES = {"file:///tmp/a%20b%C3%A9": b"/tmp/a b\xc3\xa9", "file://host/tmp/100%a/x": b"/tmp/100%a/x", "file:///tmp/a%5\\0XYZ": b"/tmp/a%5",
+          "file:///tmp/a%": b"/tmp/a%", "file:///tmp/50% 7/x": b"/tmp/50% 7/x", "file:///tmp/a%+7b": b"/tmp/a%+7b", "/tmp/a": b"/tmp/a"}
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_place_of_the_resources_is_read_from_its_address(tmp_path, place):
+    """A percent sign without two hexadecimal digits is one."""
+    source = tmp_path / "place.c"
+    source.write_text('#include "fmi_2.c"\nint main(void) {\n   char path[64];\n'
+                      f'   path_of("{place}", path, sizeof path);\n   fputs(path, stdout);\n   return 0;\n}}\n')
+    program = tmp_path / "place"
+    subprocess.run(["gcc", "-std=c11", f"-I{ROOT / 'fmi'}", f"-I{ROOT / 'include'}", "-ffunction-sections", "-Wl,--gc-sections", source,
+                    "-o", program], check=True)
+    assert subprocess.run([program], check=True, capture_output=True).stdout == PLACES[place]

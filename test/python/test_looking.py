@@ -176,6 +176,9 @@ def test_deck_from_the_standard_input(camroller, tmp_path):
         assert (one["summary/mean_torque_drive"][()] == other["summary/mean_torque_drive"][()]).all()
     result = done(camroller, "check", "-", input=deck.replace("radius_mm = 8.5", "radius_mm = -1"), code=3)
     assert "standard input:" in result.stderr
+    # one byte more than is read
+    result = done(camroller, "check", "-", input=deck + "\n" * (2**26 + 1 - len(deck.encode())), code=6)
+    assert "the standard input is too large for a deck: more than 64 MB" in result.stderr
 
 
 def test_export_selects_columns_and_formats(camroller, tmp_path):
@@ -233,6 +236,38 @@ def test_study_of_laws_ends_with_the_code_of_a_case_without_a_result(camroller):
     values = ["--set", "case.contact_policy=stop", "--set", "sweep.values_1=300,3000", "--set", "sweep.values_2=25"]
     words = done(camroller, "study", "decks/thesis.nml", "--laws", *values, code=4).stderr
     assert words.startswith("camroller: 1 of 2 cases has no result: case 1 (operating_point.speed_rpm=3000, operating_point.oil_")
+
+
+def test_study_of_laws_ends_with_the_code_of_the_deck_s_own_law(camroller):
+    """A law behind it in the table has a result."""
+    short = ["--set", "numerics.tolerance=1e-5", "--set", "numerics.periodicity=1e-8", "--set", "numerics.max_cycles=1"]
+    result = done(camroller, "study", "decks/hard/contact_loss_3200_rpm.nml", "--laws", *short, code=5)
+    lines = result.stdout.splitlines()
+    own = next(i for i, line in enumerate(lines) if line.startswith("> "))
+    assert "did not become periodic" in lines[own] and "did not become periodic" in result.stderr
+    assert any(re.search(r" \d", line) and "periodic" not in line for line in lines[own + 1:])
+
+
+def test_study_of_laws_says_that_a_solved_film_has_no_law(camroller):
+    deck = (ROOT / "decks/thesis.nml").read_text() + "&ehl /\n"
+    text = done(camroller, "study", "-", "--laws", "--set", "sweep.values_1=600", "--set", "sweep.values_2=60", input=deck).stdout
+    assert text.splitlines()[-1] == "  the film of the deck itself is solved, by &ehl, and follows none of these laws"
+    assert not any(line.startswith("> ") for line in text.splitlines())
+
+
+def test_pressure_and_film_of_a_profiled_roller_are_those_along_it_wherever_they_are_shown(camroller, tmp_path):
+    deck = ["bench/all_effects.nml", "--no-sweep"]
+    lines = done(camroller, "run", *deck, "-o", tmp_path / "a.h5").stdout.splitlines()
+    with h5py.File(tmp_path / "a.h5") as file:
+        pressure = 1e-9 * file["summary/max_axial_pressure_max"][0]
+        film = 1e6 * file["summary/min_film_thickness_axial_min"][0]
+        assert pressure > 1.1e-9 * file["summary/max_hertz_pressure"][0] and film < 0.97e6 * file["summary/min_film_thickness_min"][0]
+    # three digits are printed; pressure, smallest film, film ratio come last
+    assert [float(word) for word in lines[2].split()[-3:-1]] == pytest.approx([pressure, film], rel=5e-3)
+    told = re.search(r"pressure up to ([\d.]+) GPa", done(camroller, "check", *deck).stdout)
+    assert float(told[1]) == pytest.approx(pressure, rel=5e-3)
+    row = next(line for line in done(camroller, "study", deck[0], "--laws").stdout.splitlines() if line.startswith("> ")).split()
+    assert float(row[-2]) == pytest.approx(film, rel=5e-3)
 
 
 def test_study_of_laws_shows_the_worst_of_several_lobe_shapes(camroller, tmp_path):

@@ -14,6 +14,7 @@ import numpy
 import pytest
 import xarray
 
+from conftest import done
 from sweeps import EARLIER_RESULT
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -229,6 +230,12 @@ def axes_of(data):
     if data.is_scale:
         return (data.name.rpartition("/")[2],)
     return tuple(dimension[0].name.rpartition("/")[2] if len(dimension) else "-" for dimension in data.dims)
+
+
+def test_a_result_may_have_the_longest_name_that_a_file_can_have(camroller, tmp_path):
+    name = 252 * "x" + ".h5"
+    done(camroller, "run", DECK, "--no-sweep", "-o", name, "--quiet", folder=tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
 def test_page_of_the_result_file_has_every_dataset_with_its_axes(camroller, tmp_path):

@@ -385,12 +385,26 @@ def test_measured_values_go_with_their_cases_into_result_and_export(camroller, t
     assert again.returncode != 0 and "is not a result of this sweep" in again.stderr
 
 
+def test_long_names_and_units_of_measured_values_are_in_the_result(camroller, tmp_path):
+    name = 64 * "x"
+    (tmp_path / "cases.txt").write_text(MEASURED.replace("torque [N m]", name + " [kg m-1 s-2 K-1]"))
+    deck = write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.txt'")
+    done(camroller, "sweep", deck, folder=tmp_path)
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert file[f"measured/{name}"].attrs["units"] in ("kg m-1 s-2 K-1", b"kg m-1 s-2 K-1")
+    assert "to the last bit" in done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout
+
+
 @pytest.mark.parametrize("old, new, words", [
     ("0.41", "x", "cases.txt:2: value 1 of measured.torque [N m] is no number; '-' stands where nothing was measured"),
     ("0.41", "nan", "cases.txt:2: value 1 of measured.torque [N m] is no number"),
     ("measured.run", "measured.torque", "'measured.torque' is there twice"),
     ("measured.run", "measured.", "the name behind 'measured.' consists of letters, digits and underscores"),
     ("operating_point.speed_rpm", "measured.speed_rpm", "the table names no key"),
+    ("measured.torque", "measured." + 65 * "x", "xx [N m]': the name behind 'measured.' has 65 letters; the longest has 64"),
+    ("[N m]", "[N m", "'measured.torque [N m': behind the name stands nothing but the unit in brackets, as in 'measured.torque [N m]'"),
+    ("[N m]", "[N m] per cylinder", "behind the name stands nothing but the unit in brackets"),
+    ("[N m]", "[" + 33 * "m" + "]", "the unit has 33 letters; the longest has 32"),
 ])
 def test_mistakes_in_columns_of_measured_values_are_told(camroller, tmp_path, old, new, words):
     (tmp_path / "cases.txt").write_text(MEASURED.replace(old, new))

@@ -22,7 +22,7 @@ ROUND_OFF = 1e-12
 # Unit: factor to SI, powers of metre, kilogram, second, kelvin; radians count as numbers.
 # Source: Bureau International des Poids et Mesures, The International System of Units, 9th edition (2019), tables 2 to 8.
 UNITS = {
-    "1": (1, (0, 0, 0, 0)), "rad": (1, (0, 0, 0, 0)), "degree": (math.pi / 180, (0, 0, 0, 0)), "deg": (math.pi / 180, (0, 0, 0, 0)),
+    "1": (1, (0, 0, 0, 0)), "rad": (1, (0, 0, 0, 0)), "degree": (math.pi / 180, (0, 0, 0, 0)),
     "m": (1, (1, 0, 0, 0)), "mm": (1e-3, (1, 0, 0, 0)), "um": (1e-6, (1, 0, 0, 0)),
     "kg": (1, (0, 1, 0, 0)), "s": (1, (0, 0, 1, 0)), "K": (1, (0, 0, 0, 1)), "degC": (1, (0, 0, 0, 1)),
     "N": (1, (1, 1, -2, 0)), "J": (1, (2, 1, -2, 0)), "W": (1, (2, 1, -3, 0)), "kW": (1e3, (2, 1, -3, 0)),
@@ -159,7 +159,7 @@ def test_every_quantity_of_a_study_has_the_unit_of_its_dimension(camroller, tmp_
 def test_every_key_has_the_unit_in_its_name(results):
     """The last words of a key, as in `stiffness_N_m`, against its attribute."""
     last_words = {"N_m": "N/m", "Pa_s": "Pa s", "kg_m2": "kg m2", "kg_m3": "kg/m3", "m_s": "m/s", "per_GPa": "1/GPa", "per_K": "1/K"}
-    last_words |= {unit: unit for unit in UNITS if unit not in ("1", "rad", "degree", "deg", "K", "J", "W", "kW")} | {"deg": "degree"}
+    last_words |= {unit: unit for unit in UNITS if unit not in ("1", "rad", "degree", "K", "J", "W", "kW")} | {"deg": "degree"}
     for group in ("deck/values", "sweep"):
         for name, dataset in results.get(group, {}).items():
             key = name.split(".")[1]

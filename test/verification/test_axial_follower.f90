@@ -10,6 +10,7 @@ module test_axial_follower
    use camroller_result, only : result_t, find_quantity, get_summary
    use camroller_roller_profile, only : roller_profile_t
    use camroller_run, only : run_case
+   use camroller_simulation, only : advance, outcome_t, simulation_t, start_simulation
    use camroller_state, only : state_t, evaluate_state
    use case_twins, only : leave_constants_out, rescale_case
    use closeness, only : expect_success
@@ -35,6 +36,7 @@ contains
          new_unittest("means of load and pressure at ends that carry for a short time only do not depend on the tolerance", &
             & test_short_loads), &
          new_unittest("the mean place of the largest pressure, which jumps, does not depend on the method", test_jumps), &
+         new_unittest("largest pressure and smallest film that a host gets are those along the roller, as in a run", test_host), &
          new_unittest("remarks tell of an end that cuts the contact off, and of one without load", test_remarks) &
          ]
    end subroutine collect_axial_follower
@@ -64,6 +66,47 @@ contains
       k = find_quantity(with%series, "effective_contact_length")
       call check(error, all(abs(with%series_values(:, k) - case%mechanism%contact_width) <= 0.0_wp), "length")
    end subroutine test_flat
+
+   subroutine test_host(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Extremes of a run are looked for, those of a host are the ones of the points that it evaluates [-]
+      real(wp), parameter :: close = 1.0e-3_wp
+      type(case_t) :: case
+      type(result_t) :: result
+      type(simulation_t) :: simulation
+      type(outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Along the roller and of the contact as a whole [Pa]; along the roller [m]
+      real(wp) :: pressure, hertz_pressure, film
+      ! Of a turn [Pa], [m]
+      real(wp) :: met_pressure, met_film
+      integer :: i
+
+      case = thesis_case()
+      case%roller_profile = profiles(1)
+      call set_point(case, point_speeds(3), point_viscosities(1))
+      call run_case(case, result, failure)
+      if (.not. allocated(failure)) call get_summary(result, "max_axial_pressure_max", pressure, failure)
+      if (.not. allocated(failure)) call get_summary(result, "max_hertz_pressure", hertz_pressure, failure)
+      if (.not. allocated(failure)) call get_summary(result, "min_film_thickness_axial_min", film, failure)
+      if (.not. allocated(failure)) call start_simulation(simulation, case, 0.0_wp, failure)
+      met_pressure = 0.0_wp
+      met_film = huge(1.0_wp)
+      do i = 1, 720
+         if (allocated(failure)) exit
+         call advance(simulation, i*degree, case%operating_point%speed, case%operating_point%oil_temperature, outcome, failure)
+         if (i <= 360) cycle
+         met_pressure = max(met_pressure, outcome%extremes%hertz_pressure)
+         met_film = min(met_film, outcome%extremes%film_min)
+      end do
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call check(error, pressure > 1.02_wp*hertz_pressure, "the pressure is the same all along the roller")
+      if (allocated(error)) return
+      call check(error, met_pressure, pressure, thr=close, rel=.true., message="pressure")
+      if (allocated(error)) return
+      call check(error, met_film, film, thr=close, rel=.true., message="film")
+   end subroutine test_host
 
    subroutine test_energy(error)
       type(error_type), allocatable, intent(out) :: error

@@ -1,18 +1,21 @@
 !> Heat balance of camshaft bearings.
 module test_bearing_heat
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : two_pi, wp
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t, oil_flow, temperature_rise
    use camroller_bearing_loads, only : belt_pull_t
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, operating_point_t
    use camroller_error, only : error_t, kind_deck, kind_domain, kind_usage
    use camroller_journal, only : journal_at_speed, journal_t
    use camroller_lubricant, only : get_oil, oil_t
    use camroller_number_text, only : number_text
+   use camroller_remarks, only : far_temperature
    use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
    use camroller_shaft_simulation, only : shaft_simulation_t, start_shaft
+   use closeness, only : expect_success
+   use deck_cases, only : get_deck_case
    use reference_cases, only : add_joints, point_speeds, set_point, thesis_case
    use lobe_cases, only : run
    use result_checks, only : scalar_of
@@ -42,6 +45,7 @@ contains
          new_unittest("heat with mixed friction and orbits", test_together), &
          new_unittest("bearings whose asperities rub the more the warmer they are have their balance", test_rubbing), &
          new_unittest("the balance is as good as the accuracy asks for", test_accuracy), &
+         new_unittest("oil of any bearing hotter than the points of its viscosity is told, with series or without", test_far_oil), &
          new_unittest("impossible heat is refused with a message", test_refusals) &
          ]
    end subroutine collect_bearing_heat
@@ -270,6 +274,38 @@ contains
       ! The result's means of torque and flow may be off by 15 tolerances each; the bearings' own, and the rise, add a few
       if (.not. allocated(error)) call check_balance(case, result, 4.0e-9_wp, 0.01_wp, error)
    end subroutine test_accuracy
+
+   !> Without series of single bearings, with them, on two camshafts.
+   subroutine test_far_oil(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: text
+      integer :: i, k
+
+      do i = 1, 3
+         if (i < 3) then
+            call get_deck_case("decks/warm_bearings.nml", case, failure)
+            case%operating_point = operating_point_t(speed=2400.0_wp*two_pi/60.0_wp, oil_temperature=385.15_wp)
+            case%cam_bearings%by_bearing = i == 2
+         else
+            call get_deck_case("decks/four_cylinder.nml", case, failure)
+            case%operating_point = operating_point_t(speed=3000.0_wp*two_pi/60.0_wp, oil_temperature=419.15_wp)
+            case%bearing_heat = bearing_heat_t(heat_capacity=2000.0_wp, oil_share=1.0_wp)
+            case%bearing_asperity = bearing_asperity_t(0.3e-6_wp, 110.0e9_wp, 0.1_wp)
+         end if
+         case%cam_bearings%radial_clearance = 12.0e-6_wp
+         if (.not. allocated(failure)) call run_case(case, result, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         k = findloc(result%remarks%kind, far_temperature, 1)
+         text = "none"
+         if (k > 0) text = result%remarks(k)%text
+         call check(error, index(text, "the oil temperature in a camshaft bearing, ") > 0, number_text(real(i, wp))//": "//text)
+         if (allocated(error)) return
+      end do
+   end subroutine test_far_oil
 
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error

@@ -2,11 +2,11 @@
 module test_flexible_parts
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_case, only : case_t
-   use camroller_error, only : error_t
+   use camroller_error, only : error_t, kind_deck
    use camroller_flexible_setup, only : find_rest, rest_t
    use camroller_flexible_train, only : evaluate_train, flexible_state_t, resolution_t, state_size
    use camroller_kinds, only : pi, two_pi, wp
-   use camroller_model, only : model_t
+   use camroller_model, only : model_t, new_model
    use camroller_traction, only : rolling_resistance, same_lengths
    use camroller_contact_compliance, only : line_compliance, series_load, series_energy, one_sided_force, restitution, &
       & damping_of_restitution
@@ -15,7 +15,7 @@ module test_flexible_parts
    use camroller_lash_adjuster, only : lash_adjuster_t, adjuster_t, flows_t, leak_end_names, new_adjuster, set_adjuster_oil, &
       & bulk_modulus, relative_volume, pressure_work, evaluate_flows, adjuster_force
    use camroller_quadrature, only : gauss_legendre
-   use closeness, only : check_close, check_scaled, expect_success
+   use closeness, only : check_close, check_scaled, expect_error, expect_success
    use flexible_cases, only : add_dynamics
    use reference_cases, only : make_model, point_speeds, set_point, thesis_case
    implicit none
@@ -39,7 +39,8 @@ contains
          new_unittest("derivatives of an adjuster's flows and compression work agree with difference quotients", test_flows), &
          new_unittest("rolling resistance of a train under load is that of its law, and stays below a load of nothing", &
             & test_rolling), &
-         new_unittest("leak-down time of an adjuster agrees with the reference", test_leak_down) &
+         new_unittest("leak-down time of an adjuster agrees with the reference", test_leak_down), &
+         new_unittest("a seat into which the valve sinks by a part of the second lift alone is refused", test_soft_seat) &
          ]
    end subroutine collect_flexible_parts
 
@@ -366,5 +367,24 @@ contains
       call set_adjuster_oil(adjuster, 0.01_wp)
       call check_close(error, leak_down_time(adjuster, 222.6_wp, 1.59e-3_wp), 10.7712_wp, 1.0e-5_wp, "without it")
    end subroutine test_leak_down
+
+   subroutine test_soft_seat(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+      integer :: lobe
+
+      case = thesis_case()
+      call add_dynamics(case, 0, .false.)
+      case%second_lift = case%lift
+      case%second_lift%max_lift = 10.0_wp*case%spring%stiffness*case%spring%precompression/case%dynamics%seat_stiffness
+      do lobe = 1, 2
+         call new_model(model, case, lobe, failure)
+         if (lobe == 1) call expect_success(error, failure)
+         if (allocated(error)) return
+      end do
+      call expect_error(error, failure, kind_deck, "the seat is too soft for the spring")
+   end subroutine test_soft_seat
 
 end module test_flexible_parts

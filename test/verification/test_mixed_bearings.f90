@@ -12,6 +12,7 @@ module test_mixed_bearings
    use camroller_quadrature, only : gauss_legendre
    use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
+   use closeness, only : expect_error
    use labelled_table, only : label_length, read_table
    use reference_cases, only : point_speeds, point_viscosities, set_point, thesis_case
    use unit_systems, only : angular_speed, force, length, pressure, scaled, torque, unit_systems_tried, viscosity
@@ -431,7 +432,7 @@ contains
       case = hot_case()
       case%bearing_asperity%boundary_coefficient = -0.1_wp
       call run_case(case, result, failure)
-      call check(error, allocated(failure), "friction that drives is accepted")
+      call expect_error(error, failure, kind_deck, "no negative friction coefficient")
    end subroutine test_refusals
 
 end module test_mixed_bearings

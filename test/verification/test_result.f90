@@ -13,10 +13,12 @@ module test_result
    use camroller_events, only : contact_losses
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t
-   use camroller_result, only : result_t, check_numbers, find_quantity, get_summary
+   use camroller_means, only : statistics_t
+   use camroller_result, only : result_t, check_numbers, find_quantity, get_summary, quantity_t
    use camroller_run, only : run_case
    use camroller_state, only : evaluate_loading, state_t
    use closeness, only : check_close, expect_error, expect_success
+   use deck_cases, only : get_deck_case
    use lobe_cases, only : fast, low_lift, run, thesis_lift, two_lobes
    use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
@@ -33,6 +35,7 @@ contains
          new_unittest("a second lobe shape with the lift of the first has the series of the first", test_same_lobes), &
          new_unittest("series belong to a lobe shape, whatever its number", test_swapped_lobes), &
          new_unittest("every series has a scope", test_scopes), &
+         new_unittest("names of series of many bearings fit where a result names its worst mean", test_long_names), &
          new_unittest("lobe 1 has its series if the first cam has lobe 2", test_first_cam), &
          new_unittest("smallest and largest values agree with a fine scan", test_extremes), &
          new_unittest("extremes do not depend on the output step", test_coarse_output), &
@@ -131,6 +134,30 @@ contains
       call check(error, count(result%series%scope == "lobe 1"), of_lobe)
       if (.not. allocated(error)) call check(error, count(result%series%scope == "lobe 2"), of_lobe)
    end subroutine test_scopes
+
+   subroutine test_long_names(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(quantity_t), allocatable :: series(:)
+      type(result_t) :: result
+      type(statistics_t) :: statistics
+      type(error_t), allocatable :: failure
+      integer :: room, i
+
+      call get_deck_case("decks/four_cylinder.nml", case, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      allocate (case%bearing_heat, case%bearing_asperity)
+      case%cam_bearings%by_bearing = .true.
+      case%cam_bearings%bearing_positions = [(0.01_wp*i, i=1, 12)]
+      call list_series(case, series)
+      call check(error, find_quantity(series, "camshaft_2_bearing_12_temperature_rise") > 0, "names")
+      room = min(len(result%worst_mean), len(result%worst_extreme), len(statistics%worst_mean), len(statistics%worst_extreme))
+      do i = 1, size(series)
+         if (allocated(error)) return
+         call check(error, len(series(i)%name) <= room, series(i)%name)
+      end do
+   end subroutine test_long_names
 
    subroutine test_first_cam(error)
       type(error_type), allocatable, intent(out) :: error

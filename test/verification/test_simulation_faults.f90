@@ -4,9 +4,11 @@ module test_simulation_faults
    use, intrinsic :: iso_fortran_env, only : int8, int64
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller, only : wp, pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
-      & start_simulation, advance, kind_usage, kind_deck, kind_domain, deck_t, inputs_t, make_case, override_t, quantity_t, &
+      & start_simulation, advance, kind_usage, kind_deck, kind_domain, kind_convergence, deck_t, inputs_t, make_case, &
+      & override_t, quantity_t, &
       & find_quantity, restore_simulation, run_sweep, save_simulation, simulation_angle, simulation_series, simulation_values, &
       & sweep_options_t, sweep_report_t
+   use closeness, only : expect_error
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case
    use test_simulation, only : tight_case
@@ -172,6 +174,9 @@ contains
          & 4.8_wp, -31.0_wp, 330.0_wp, &
          & 4.8_wp, 40.0_wp, 100.0_wp, &
          & 9.2_wp, 1.0e10_wp, 330.0_wp], [3, 4])
+      ! What each is refused with
+      integer, parameter :: kinds(4) = [kind_usage, kind_usage, kind_domain, kind_convergence]
+      character(len=*), parameter :: words(4) = [character(len=9) :: "angle", "speed", "Vogel", "step size"]
       type(case_t) :: the_case
       type(simulation_t) :: simulation, other
       type(outcome_t) :: outcome, expected
@@ -189,7 +194,7 @@ contains
          if (.not. allocated(failure)) call advance(other, 4.5_wp, 31.0_wp, 330.0_wp, expected, failure)
          if (allocated(failure)) exit
          call advance(simulation, failing(1, i), failing(2, i), failing(3, i), outcome, failure)
-         call check(error, allocated(failure), "a step that should fail does not")
+         call expect_error(error, failure, kinds(i), trim(words(i)))
          if (allocated(error)) return
          deallocate (failure)
          do step = 1, 3
@@ -237,7 +242,7 @@ contains
          return
       end if
       call advance(simulation, 3.0_wp, inputs_t(70.0_wp, 330.0_wp), inputs_t(80.0_wp, 50.0_wp), failed, failure)
-      call check(error, allocated(failure), "a step that should fail does not")
+      call expect_error(error, failure, kind_domain, "Vogel")
       if (allocated(error)) return
       call save_simulation(simulation, again, failure)
       call simulation_values(simulation, the_case, outcome, after, failure)

@@ -25,9 +25,8 @@ module test_unit_rescaling_train
 
    public :: collect_unit_rescaling_train
 
-   !> A contact at the nose [N], [m], [m], [Pa], [Pa s], [1/Pa], [m/s], [m/s]
-   real(wp), parameter :: load = 741.0_wp, radius = 4.116e-3_wp, width = 13.7e-3_wp, modulus = 201.8e9_wp, &
-      & eta = 0.0305_wp, alpha = 2.2e-8_wp, entrainment = 0.4884_wp, sliding = 3.1e-3_wp
+   !> A contact at the nose [N], [m], [m], [Pa s], [m/s]
+   real(wp), parameter :: load = 741.0_wp, radius = 4.116e-3_wp, width = 13.7e-3_wp, eta = 0.0305_wp, sliding = 3.1e-3_wp
 
 contains
 
