@@ -21,6 +21,7 @@ program main
    use test_joint_spikes, only : collect_joint_spikes
    use test_ehl_heat, only : collect_ehl_heat
    use test_ehl_boundary, only : collect_ehl_boundary
+   use test_heat_remarks, only : collect_heat_remarks
    use test_heat, only : collect_heat
    use test_axial, only : collect_axial
    use test_axial_follower, only : collect_axial_follower
@@ -229,6 +230,7 @@ contains
          new_testsuite("joint_spikes", collect_joint_spikes), &
          new_testsuite("ehl_heat", collect_ehl_heat), &
          new_testsuite("ehl_boundary", collect_ehl_boundary), &
+         new_testsuite("heat_remarks", collect_heat_remarks), &
          new_testsuite("heat", collect_heat), &
          new_testsuite("axial", collect_axial), &
          new_testsuite("axial_follower", collect_axial_follower), &

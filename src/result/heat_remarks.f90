@@ -1,14 +1,16 @@
-!> Remarks on heat that a case leaves out: oil that friction would warm in the bearings of the camshaft, or in the inlets of contacts,
-!> by so much that films and friction are other ones.
+!> Remarks on heat that a case leaves out: oil that friction would warm in the bearings of the camshaft, or in the inlets of
+!> contacts, by so much that films and friction are other ones.
 !>
 !> In: a solved case, its summary, mean torques and films of its bearings. Out: remarks, one line of each kind. They are estimates
-!> by closed formulas of what `&bearing_heat` and `&heat` compute, without a further state of bearing or contact.
+!> of what `&bearing_heat` and `&heat` compute, from one bearing and one contact for all.
 module camroller_heat_remarks
    use camroller_kinds, only : wp, two_pi
    use camroller_bearing_heat, only : bearing_heat_t, flow_covers_width, oil_flow, temperature_rise
    use camroller_case, only : case_t
    use camroller_catalogue, only : lobe_prefix
    use camroller_error, only : error_t
+   use camroller_journal, only : film_at, film_friction, find_tangent, journal_solved, journal_t, journal_without_film, &
+      & new_journal
    use camroller_heat, only : heat_t, inlet_factor, inlet_murch_wilson
    use camroller_lubricant, only : density_at, get_oil, law_direct, oil_t, temperature_law_names
    use camroller_number_text, only : number_text
@@ -21,8 +23,8 @@ module camroller_heat_remarks
 
    public :: judge_heat
 
-   !> Part of the film, or of the viscosity in a bearing, that is left with heat, from which on a remark is worth its line: film laws
-   !> differ by no more from each other [-]
+   !> Part of the film, or of the friction of bearings, that is left with heat, from which on a remark is worth its line: film
+   !> laws differ by no more from each other [-]
    real(wp), parameter :: worth_a_word = 0.7_wp
    !> Rise of the temperature over which the viscosity's fall is taken [K]
    real(wp), parameter :: fall_step = 5.0_wp
@@ -47,9 +49,9 @@ contains
       if (.not. allocated(solved%case%heat)) call judge_inlets(solved, result)
    end subroutine judge_heat
 
-   !> Oil of the bearings of the camshaft whose oil would warm the most: all bearings together, by their mean torque and their flow at
-   !> the mean of their eccentricity; at the temperature at which the oil carries off the friction of the film, which is in proportion
-   !> to the viscosity. Eccentricity and flow grow as the oil thins, so that the rise is rather less.
+   !> Oil of the bearings of the camshaft whose oil would warm the most: all its bearings together, by their mean torque and their
+   !> flow at the mean of their eccentricities. How friction and flow change as the oil thins is that of a bearing with this
+   !> eccentricity under a constant load.
    subroutine judge_bearings(solved, films, torques, result)
       !> The solved case
       type(solved_t), intent(in) :: solved
@@ -60,71 +62,84 @@ contains
       !> Gets the remark
       type(result_t), intent(inout) :: result
 
-      ! Parts of a turn that the angles stand for, mean eccentricity [-]; flow of oil [m^3/s]
-      real(wp) :: parts(films%count), eccentricity, flow
-      ! Rise with the viscosity at the temperature of the supply, that with its own [K]; viscosity over that of the supply [-]
+      ! Parts of a turn that the angles stand for, mean eccentricity of each camshaft [-]
+      real(wp) :: parts(films%count), eccentricities(size(torques))
+      ! Rise with the viscosity at the temperature of the supply, that with its own [K]; friction over that of the supply's [-]
       real(wp) :: rises(size(torques)), rise, part
-      integer :: n, k, b
+      integer :: n, k
 
       associate (bearings => solved%shaft%bearings, shaft => solved%shaft, case => solved%case)
-         if (.not. flow_covers_width(bearings%law, bearings%width, bearings%diameter)) return
          n = films%count
-         if (n < 2) return
+         if (n < 2 .or. .not. flow_covers_width(bearings%law, bearings%width, bearings%diameter)) return
          parts = modulo(cshift(films%angle(:n), 1) - cshift(films%angle(:n), -1), two_pi)/(2.0_wp*two_pi)
-         do k = 1, size(torques)
-            flow = 0.0_wp
-            do b = 1, bearing_number(shaft)
-               eccentricity = 1.0_wp - sum(parts*films%values((k - 1)*bearing_number(shaft) + b, :n))/bearings%radial_clearance
-               flow = flow + oil_flow(shaft%journal, shaft%speed, eccentricity)
+         associate (number => bearing_number(shaft))
+            do k = 1, size(torques)
+               eccentricities(k) = 1.0_wp - sum(matmul(films%values((k - 1)*number + 1:k*number, :n), parts)) &
+                  & /(number*bearings%radial_clearance)
+               rises(k) = temperature_rise(bearing_heat_t(), density_at(case%lubricant, case%operating_point%oil_temperature), &
+                  & torques(k)*abs(shaft%speed), number*oil_flow(shaft%journal, shaft%speed, eccentricities(k)))
             end do
-            rises(k) = temperature_rise(bearing_heat_t(), density_at(case%lubricant, case%operating_point%oil_temperature), &
-               & torques(k)*abs(shaft%speed), flow)
-         end do
-         call warm_oil(case, solved%models(1)%oil%viscosity, maxval(rises), rise, part)
+         end associate
+         call warm_bearing(solved, eccentricities(maxloc(rises, 1)), maxval(rises), rise, part)
          if (part > worth_a_word) return
-         call add_remark(result%remarks, cool_bearings, "the oil in the bearings of the camshaft is taken at the temperature of "// &
-            & "the supply; friction would warm it by about "//number_text(rise, 2)//" K, to "//number_text(part, 2)//" of that "// &
-            & "viscosity, and friction of the bearings would fall with it; &bearing_heat computes it", 1.0_wp/part)
+         call add_remark(result%remarks, cool_bearings, "the oil in the bearings of the camshaft is taken at the temperature "// &
+            & "of the supply; friction would warm it by about "//number_text(rise, 2)//" K, and be about "// &
+            & number_text(part, 2)//" of what it is; &bearing_heat computes it", 1.0_wp/part)
       end associate
    end subroutine judge_bearings
 
-   !> Temperature at which the oil carries off a friction in proportion to its viscosity, by bisection.
-   subroutine warm_oil(case, viscosity, cold, rise, part)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Viscosity at the temperature of the oil [Pa s], rise of the temperature with it [K]
-      real(wp), intent(in) :: viscosity, cold
-      !> Rise that goes with the viscosity there [K]
+   !> Temperature at which the oil carries the friction of a bearing off, by bisection.
+   subroutine warm_bearing(solved, eccentricity, cold, rise, part)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> Eccentricity of the bearing with the oil of the supply [-]; rise of the temperature with friction and flow there [K]
+      real(wp), intent(in) :: eccentricity, cold
+      !> Rise that goes with friction and flow at its temperature [K]
       real(wp), intent(out) :: rise
-      !> This viscosity over the given one [-]
+      !> Friction there over that with the oil of the supply [-]
       real(wp), intent(out) :: part
 
-      ! No oil is so much warmer than its supply [K]; steps, of which each halves what may be off: to 0.2 K
-      real(wp), parameter :: largest = 200.0_wp
+      ! No oil is so much warmer than its supply, and a rise below the least changes nothing worth a word [K]; steps, of which each
+      ! halves what may be off: to 0.2 K
+      real(wp), parameter :: largest = 200.0_wp, least = 2.0_wp
       integer, parameter :: steps = 10
       type(oil_t) :: oil
+      type(journal_t) :: journal
       type(error_t), allocatable :: error
-      real(wp) :: low, high ! [K]
-      integer :: i
+      ! Bounds of the rise [K]; e/sqrt(1 - e^2) [-]; load, friction with the oil of the supply [N]; flow over that with it [-]
+      real(wp) :: low, high, t, load, friction, flow
+      integer :: i, status
 
       rise = 0.0_wp
       part = 1.0_wp
-      low = 0.0_wp
-      high = min(cold, largest)
-      if (.not. high > 0.0_wp) return
-      do i = 1, steps
-         rise = 0.5_wp*(low + high)
-         call get_oil(case%lubricant, case%operating_point%oil_temperature + rise, oil, error)
-         ! Hotter than its laws go
-         if (allocated(error)) then
-            high = rise
-            cycle
-         end if
-         part = oil%viscosity/viscosity
-         if (rise < cold*part) low = rise
-         if (rise >= cold*part) high = rise
-      end do
-   end subroutine warm_oil
+      if (cold < least .or. .not. (eccentricity > 0.0_wp .and. eccentricity < 1.0_wp)) return
+      associate (case => solved%case, shaft => solved%shaft)
+         t = eccentricity/sqrt((1.0_wp - eccentricity)*(1.0_wp + eccentricity))
+         journal = shaft%journal
+         associate (film => film_at(journal, t))
+            load = journal%unit_load*film%number
+         end associate
+         friction = film_friction(journal, load, t)
+         low = 0.0_wp
+         high = min(cold, largest)
+         do i = 1, steps
+            rise = 0.5_wp*(low + high)
+            call get_oil(case%lubricant, case%operating_point%oil_temperature + rise, oil, error)
+            if (.not. allocated(error)) call new_journal(journal, shaft%bearings, oil%viscosity, shaft%speed, error)
+            status = journal_without_film
+            if (.not. allocated(error)) call find_tangent(journal, load, t, status)
+            ! Hotter than laws of the oil or the bearing go
+            if (status /= journal_solved) then
+               high = rise
+               cycle
+            end if
+            part = film_friction(journal, load, t)/friction
+            flow = t/sqrt(1.0_wp + t**2)/eccentricity
+            if (rise*flow < cold*part) low = rise
+            if (rise*flow >= cold*part) high = rise
+         end do
+      end associate
+   end subroutine warm_bearing
 
    !> Films of the lobe shape whose inlet would be heated the most: by the factor of Murch and Wilson (1975) for pure rolling at the
    !> largest speed of entrainment.
