@@ -204,14 +204,16 @@ contains
    end subroutine add_number_remarks
 
    !> Show remarks on the numbers of a deck.
-   subroutine tell_deck_remarks(deck)
+   subroutine tell_deck_remarks(deck, of_hosts)
       !> The deck
       type(deck_t), intent(in) :: deck
+      !> Are followers to be driven step by step? Not without it
+      logical, intent(in), optional :: of_hosts
 
       type(line_t), allocatable :: remarks(:)
       integer :: i
 
-      call list_deck_remarks(deck, remarks)
+      call list_deck_remarks(deck, remarks, of_hosts)
       do i = 1, size(remarks)
          call tell("remark: "//remarks(i)%text//new_line("a"))
       end do

@@ -8,6 +8,7 @@
 module camroller_fmu_command
    use camroller_error, only : error_t
    use camroller_cli, only : config_t
+   use camroller_console, only : tell_deck_remarks
    use camroller_deck, only : deck_t, read_deck, drop_sweep
    use camroller_fmu_file, only : write_fmu
    use camroller_output_kind, only : fmu_kind
@@ -41,6 +42,7 @@ contains
       if (.not. allocated(error)) call find_place(config, deck, fmu_kind, ".fmu", path, error)
       if (allocated(error)) return
       call drop_sweep(deck)
+      if (.not. config%is_quiet) call tell_deck_remarks(deck, of_hosts=.true.)
       library = config%library//"/"
       if (config%library == "") library = folder_of(resolve_path(own_program))//library_folder
       call write_fmu(deck, config%fmi_version, library, path, error)

@@ -1,5 +1,6 @@
 /* One instance of an FMU. What the numbers of its variables mean is read from a file beside its deck, which `camroller fmu` writes
- * together with the model description: one line for each variable, its kind, cam and place, or its key, and its value at the start. */
+ * together with the model description: one line for each variable, its kind, cam and place, its key or the name of its number, and its
+ * value at the start. */
 #define _POSIX_C_SOURCE 200809L /* for newlocale */
 #include "instance.h"
 
@@ -22,12 +23,12 @@ static const char *const words[KINDS] = {
    "smallest_torque_drive", "largest_torque_drive", "estimated_error", "series"
 };
 
-enum { KEY_ROOM = 96, PATH_ROOM = 4096, LINE_ROOM = 256, NUMBER_ROOM = 32 };
+enum { KEY_ROOM = 96, PATH_ROOM = 4096, LINE_ROOM = 256, NUMBER_ROOM = 32, MESSAGE_ROOM = 1024 };
 
 typedef struct {
    enum kind kind;
    int cam, place;
-   char key[KEY_ROOM];
+   char key[KEY_ROOM]; /* or the name of a number of the series */
    double start;
 } variable;
 
@@ -125,7 +126,7 @@ instance *instance_new(const char *resources, listener tell, void *who) {
    if (read_variables(self)) {
       self->now.values = malloc(self->count * sizeof(double));
       self->pressures = malloc((2 * (size_t)self->cams + 2) * sizeof(double));
-      self->row = malloc((self->row_room + 1) * sizeof(double));
+      self->row = calloc(self->row_room + 1, sizeof(double));
       if (self->now.values != NULL && self->pressures != NULL && self->row != NULL) {
          set_starts(self);
          return self;
@@ -211,6 +212,35 @@ static double value_of(const instance *self, enum kind kind, int cam) {
    return 0.0;
 }
 
+/* Does a shaft have the cams and the numbers that the model description promises? Some keys decide which there are. */
+static int has_described(const instance *self, const camroller_shaft *shaft) {
+   char name[KEY_ROOM], *const texts[3] = {name, NULL, NULL};
+   if (camroller_shaft_cams(shaft) != self->cams) return 0;
+   for (size_t i = 0; i < self->count; i++) {
+      const variable *one = &self->variables[i];
+      if (one->kind != SERIES) continue;
+      if (camroller_shaft_quantity(shaft, one->cam, (size_t)one->place, texts, sizeof name, NULL) != 0) return 0;
+      if (strcmp(name, one->key) != 0) return 0;
+      int is_last = i + 1 == self->count || self->variables[i + 1].kind != SERIES || self->variables[i + 1].cam != one->cam;
+      if (is_last && camroller_shaft_quantity(shaft, one->cam, (size_t)one->place + 1, NULL, 0, NULL) == 0) return 0;
+   }
+   return 1;
+}
+
+/* Refuse parameters that change which outputs there are, by their names. */
+static int refuse_outputs(instance *self, const double *values) {
+   char message[MESSAGE_ROOM] = "";
+   for (size_t i = 0; i < self->count; i++) {
+      if (self->variables[i].kind != KEY || values[i] == self->variables[i].start) continue;
+      size_t used = strlen(message);
+      snprintf(message + used, sizeof message - used, "%s%s", used == 0 ? "" : ", ", self->variables[i].key);
+   }
+   size_t used = strlen(message);
+   snprintf(message + used, sizeof message - used, ": with such values there are other outputs than the FMU has; one that has them is "
+                                                   "written by 'camroller fmu DECK --set KEY=VALUE'");
+   return instance_refuse(self, message);
+}
+
 int instance_start(instance *self, double time) {
    char remarks[sizeof self->error.message];
    camroller_case *made = case_of(self, self->now.values);
@@ -221,8 +251,11 @@ int instance_start(instance *self, double time) {
    self->now.shaft = NULL;
    int is_right = heard(self, camroller_shaft_new(made, value_of(self, START_ANGLE, 0), 1, &self->now.shaft, &self->error));
    camroller_case_free(made);
-   if (is_right && camroller_shaft_cams(self->now.shaft) != self->cams)
-      is_right = instance_refuse(self, "parameters must not change the number of cams");
+   if (is_right && !has_described(self, self->now.shaft)) {
+      camroller_shaft_free(self->now.shaft);
+      self->now.shaft = NULL;
+      is_right = refuse_outputs(self, self->now.values);
+   }
    self->now.time = time;
    return is_right;
 }
@@ -374,6 +407,7 @@ int state_from_bytes(instance *self, const char *bytes, size_t count, state **pl
       int is_right = own != NULL && heard(self, camroller_shaft_restore(own, bytes + head, count - head, 1, &made->shaft,
                                                                         &self->error));
       camroller_case_free(own);
+      if (is_right && !has_described(self, made->shaft)) is_right = refuse_outputs(self, made->values);
       if (!is_right) {
          state_free(made);
          return 0;

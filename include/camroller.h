@@ -69,8 +69,8 @@ void camroller_case_free(camroller_case *self);
  * any or all of them NULL, and the value in that unit. CAMROLLER_USAGE tells that there are no more. */
 int camroller_case_number(const camroller_case *self, size_t number, char *const texts[3], size_t room, double *value,
                           camroller_error *error);
-/* Remarks on the deck, one a line, empty where there are none: numbers that no engine has, keys without effect. A run has others, see
- * camroller_result_remarks. */
+/* Remarks on the deck, one a line, empty where there are none: numbers that no engine has, keys without effect, a choice of
+ * effects, which is of runs. A run has others, see camroller_result_remarks. */
 void camroller_case_remarks(const camroller_case *self, char *buffer, size_t room);
 /* Cases of the deck's sweep, 1 without one. A case stands for its deck without the sweep; the case of a number, from 0, is made
  * of it, with the sweep's values of the keys that vary, whatever was set for them. Name of a key that varies, from 0, and its value
@@ -172,7 +172,7 @@ typedef struct {
    double mean_torque_bearings, torque_bearings; /* the part of that for the camshaft bearings [N m] */
    /* of all followers by source, as in camroller_outcome [N m] */
    double mean_torques[5], torques[5];
-   double extreme_torque[2]; /* smallest and largest torque that drives, at angles a degree apart at most [N m] */
+   double extreme_torque[2]; /* smallest and largest torque that drives, at angles a degree apart or less [N m] */
    double estimated_error;   /* of the mean torque that drives, as in camroller_outcome [N m] */
    /* of all followers, as in camroller_outcome, and the seals and the drive of the camshafts (&shaft_drag) [N m] */
    double mean_torque_others, torque_others;

@@ -53,6 +53,7 @@ int main(int count, char **words) {
    camroller_shaft_outcome outcome = {.size = sizeof outcome};
    double pressures[2 * CAMS];
    if (count < 2 || camroller_library_version() / 100 != CAMROLLER_VERSION / 100) return 2;
+   camroller_use_one_blas_thread();
    stop_on(camroller_case_from_file(words[1], &engine, &error));
    stop_on(camroller_shaft_new(engine, cam_angle(0.0), threads, &shaft, &error));
    camroller_case_free(engine);

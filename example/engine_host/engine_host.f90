@@ -6,7 +6,7 @@
 program engine_host
    use, intrinsic :: iso_fortran_env, only : int64, error_unit
    use camroller_core, only : wp, pi, degree, error_t, deck_t, override_t, case_t, inputs_t, shaft_simulation_t, shaft_outcome_t, &
-      & read_deck, make_case, start_shaft, advance_shaft, cam_number, of_bearings
+      & read_deck, make_case, start_shaft, advance_shaft, cam_number, of_bearings, use_one_blas_thread
    implicit none
 
    !> Cylinders in the order in which they fire; cams of a camshaft for each cylinder
@@ -37,6 +37,7 @@ contains
 
       cycles = number_at(2, 3)
       threads = number_at(3, 1)
+      call use_one_blas_thread()
       call read_deck(deck, word_at(1), none, error)
       if (.not. allocated(error)) call make_case(deck, none, case, error)
       if (.not. allocated(error)) call start_shaft(shaft, case, cam_angle(0.0_wp), error, threads)

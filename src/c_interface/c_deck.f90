@@ -86,7 +86,7 @@ contains
          call c_f_pointer(handle, given)
          deck = given%deck
          call drop_sweep(deck)
-         call list_deck_remarks(deck, remarks)
+         call list_deck_remarks(deck, remarks, of_hosts=.true.)
          do i = 1, size(remarks)
             if (i > 1) text = text//new_line("a")
             text = text//remarks(i)%text

@@ -254,7 +254,7 @@ contains
       call add_number(schema, "roller_poisson_ratio", range_t(0.0_wp, 0.5_wp), "Poisson's ratio of the roller", &
          & example="0.29")
       call add_number(schema, "hardness_GPa", positive, &
-         & "hardness of the softer body; for film law 'masjedi_khonsari_rough' and asperity law 'zhao_maietta_chang'", &
+         & "hardness of the softer body; for film 'masjedi_khonsari_rough', asperities 'zhao_maietta_chang', a remark on yield", &
          & is_optional=.true.)
       call add_group(schema, "surface", group_required, "roughness of cam and roller")
       call add_number(schema, "cam_roughness_um", not_negative, "root mean square roughness of the cam", example="0.1")
@@ -355,9 +355,9 @@ contains
       call add_logical(schema, "profiles", standard%profiles, &
          & "are pressure, film and friction across the contact written too, in /ehl? By 'sweep' for the cases of sweep.series")
       call add_logical(schema, "shear_thinning", standard%shear_thinning, &
-         & "does sliding thin the oil, where the shear law is 'eyring'? In profiles and with 'camroller ehl'")
+         & "whether sliding thins the oil, where the shear law is 'eyring'")
       call add_logical(schema, "flow_factors", standard%flow_factors, &
-         & "does roughness hinder the flow, by Patir and Cheng? In profiles and with 'camroller ehl'")
+         & "whether roughness hinders the flow, by Patir and Cheng")
    end subroutine add_ehl_keys
 
    !> Asperities.

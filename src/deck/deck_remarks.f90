@@ -23,7 +23,7 @@ module camroller_deck_remarks
    use camroller_deck_table_remarks, only : remark_lift, remark_pressure, remark_rows
    use camroller_deck_tables, only : deck_tables_t, find_table, table_groups
    use camroller_table_file, only : table_t
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, select_names, select_needed
    use camroller_deck, only : add_override, deck_t, make_case, make_settings, override_t
    use camroller_error, only : error_t
    use camroller_oil_checks, only : compare_hths, find_far_points
@@ -43,11 +43,13 @@ module camroller_deck_remarks
 contains
 
    !> Remarks on the values of a deck without mistakes, those of its sweep included.
-   subroutine list_deck_remarks(deck, remarks)
+   subroutine list_deck_remarks(deck, remarks, of_hosts)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Sentences
       type(line_t), allocatable, intent(out) :: remarks(:)
+      !> Are followers to be driven step by step, too? Not without it
+      logical, intent(in), optional :: of_hosts
 
       ! Keys that vary, and those that have a remark of their own
       character(len=2*key_length), allocatable :: left_out(:)
@@ -70,6 +72,10 @@ contains
          call remark_tables(deck, trim(table_groups(i)), .false., remarks)
       end do
       call remark_unused(deck, remarks)
+      if (.not. present(of_hosts)) return
+      if (of_hosts .and. get_word(deck%settings, "effects", "select") == select_names(select_needed)) call add_line(remarks, &
+         & "effects.select = '"//trim(select_names(select_needed))//"' is of runs: followers driven step by step, in FMUs too, "// &
+         & "have all effects of the deck")
    end subroutine list_deck_remarks
 
    !> The table of a group: that of the deck, or those that its cases name, each as the first case has it that names it.
@@ -176,7 +182,7 @@ contains
          associate (value => deck%settings%values(i))
             if (.not. value%is_given .or. .not. value%is_known) cycle
             if (.not. deck%settings%groups(key%group)%is_present) cycle
-            if (is_idle(deck%settings, deck%sweep, name_of(deck, i))) then
+            if (is_idle(deck%settings, deck%sweep, name_of(deck, i), of_runs=.true.)) then
                call remark_idle(deck%settings, key, name_of(deck, i), value, remarks)
                cycle
             end if

@@ -125,7 +125,7 @@ contains
 
       do i = 1, size(sweep%axes)
          associate (key => sweep%axes(i)%key)
-            if (.not. is_idle(settings, sweep, key)) cycle
+            if (.not. is_idle(settings, sweep, key, of_runs=.false.)) cycle
             place = "table"
             do k = 1, sweep_key_count
                if (to_lower(get_word(settings, "sweep", "key_"//integer_text(k))) == to_lower(key)) place = "key_"//integer_text(k)

@@ -1,10 +1,11 @@
-!> What keys are used for: the one table of keys that have no effect but under a choice made by another key.
+!> What keys are used for: the one table of keys that have no effect but under a choice made by another key, or in one command.
 !>
 !> In: settings, and a sweep whose keys vary. Out: whether a key is idle, and when it is used, in words. Where one of several rows
 !> of a key holds, the key is used.
 module camroller_key_uses
    use camroller_deck_schema, only : key_length
    use camroller_deck_sweep, only : axis_of, sweep_t
+   use camroller_deck_values, only : value_t
    use camroller_settings, only : find_value, has_group, settings_t
    implicit none
    private
@@ -13,14 +14,17 @@ module camroller_key_uses
 
    !> Length of the names of choices, and of a list of their values
    integer, parameter :: choice_length = 64
-   !> Signs in the place of values: any value, or a group that is there; no value, or a group that is not there
-   character(len=*), parameter :: given = "(given)", not_given = "(not given)"
+   !> Signs in the place of values: any value, or a group that is there; no value, or a group that is not there; a command that is
+   !> no run
+   character(len=*), parameter :: given = "(given)", not_given = "(not given)", by_command = "(command)"
+   !> Values of what is true or false
+   character(len=*), parameter :: yes = ".true.", no = ".false."
 
    !> One use of a key
    type :: key_use_t
       !> As `group.key`
       character(len=2*key_length) :: key
-      !> What decides: a key of the same group, `group.key` of another, or `&group`
+      !> What decides: a key of the same group, `group.key` of another, `&group`, or a command
       character(len=choice_length) :: choice
       !> Its values, blanks between them, or a sign
       character(len=choice_length) :: values = given
@@ -62,13 +66,21 @@ module camroller_key_uses
       key_use_t("lubricant.thermal_expansion_per_K", "&needle_drag"), &
       key_use_t("lubricant.thermal_expansion_per_K", "needle_bearing.kind", "needles_skf"), &
       key_use_t("lubricant.thermal_expansion_per_K", "&bearing_heat"), &
+      key_use_t("lubricant.density_kg_m3", "ehl.profiles", yes), &
+      key_use_t("lubricant.thermal_expansion_per_K", "ehl.profiles", yes), &
       key_use_t("lubricant.roelands_index", "pressure_viscosity_coefficient_per_GPa", not_given), &
       key_use_t("film.law", "&ehl", not_given), &
+      key_use_t("film.law", "ehl.profiles", yes), &
+      key_use_t("ehl.shear_thinning", "profiles", yes), &
+      key_use_t("ehl.shear_thinning", "camroller ehl", by_command), &
+      key_use_t("ehl.flow_factors", "profiles", yes), &
+      key_use_t("ehl.flow_factors", "camroller ehl", by_command), &
       key_use_t("traction.eyring_stress_MPa", "shear_law", "eyring"), &
       key_use_t("traction.limiting_stress_MPa", "limit", "local"), &
       key_use_t("roller_profile.crown_radius_mm", "profile", "crowned"), &
       key_use_t("roller_profile.design_load_N", "profile", "logarithmic"), &
       key_use_t("roller_profile.end_drop_um", "profile", "logarithmic"), &
+      key_use_t("heat.oil_heat_capacity_J_kg_K", "ehl.profiles", yes), &
       key_use_t("heat.limit_fall_per_K", "contact", "mean"), &
       key_use_t("heat.cam_conductivity_W_m_K", "contact", "mean"), &
       key_use_t("heat.cam_density_kg_m3", "contact", "mean"), &
@@ -76,6 +88,13 @@ module camroller_key_uses
       key_use_t("heat.roller_conductivity_W_m_K", "contact", "mean"), &
       key_use_t("heat.roller_density_kg_m3", "contact", "mean"), &
       key_use_t("heat.roller_heat_capacity_J_kg_K", "contact", "mean"), &
+      key_use_t("heat.limit_fall_per_K", "ehl.profiles", yes), &
+      key_use_t("heat.cam_conductivity_W_m_K", "ehl.profiles", yes), &
+      key_use_t("heat.cam_density_kg_m3", "ehl.profiles", yes), &
+      key_use_t("heat.cam_heat_capacity_J_kg_K", "ehl.profiles", yes), &
+      key_use_t("heat.roller_conductivity_W_m_K", "ehl.profiles", yes), &
+      key_use_t("heat.roller_density_kg_m3", "ehl.profiles", yes), &
+      key_use_t("heat.roller_heat_capacity_J_kg_K", "ehl.profiles", yes), &
       key_use_t("asperity.roughness_product", "law", summit_laws), &
       key_use_t("asperity.roughness_over_tip_radius", "law", summit_laws), &
       key_use_t("asperity.mobilising_speed_m_s", "mobilisation", "regularised"), &
@@ -129,13 +148,15 @@ module camroller_key_uses
 contains
 
    !> Is there no case in which a key has an effect? Where its choice varies too, it may have one.
-   pure function is_idle(settings, sweep, key) result(verdict)
+   pure function is_idle(settings, sweep, key, of_runs) result(verdict)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys that vary
       type(sweep_t), intent(in) :: sweep
       !> As `group.key`
       character(len=*), intent(in) :: key
+      !> Of runs, or of any command?
+      logical, intent(in) :: of_runs
       !> Is there none?
       logical :: verdict
 
@@ -144,11 +165,12 @@ contains
       verdict = .false.
       do i = 1, size(uses)
          if (uses(i)%key /= table_name(key)) cycle
-         if (holds(settings, sweep, uses(i), choice_of(key, uses(i)))) then
-            verdict = .false.
-            return
+         if (uses(i)%values == by_command) then
+            verdict = of_runs
+         else
+            verdict = .not. holds(settings, sweep, uses(i), choice_of(key, uses(i)))
          end if
-         verdict = .true.
+         if (.not. verdict) return
       end do
    end function is_idle
 
@@ -169,6 +191,8 @@ contains
             words = words//"with "//numbered(uses(i)%choice, key)
          else if (uses(i)%values == not_given) then
             words = words//"without "//trim(uses(i)%choice)
+         else if (uses(i)%values == by_command) then
+            words = words//"by '"//trim(uses(i)%choice)//"'"
          else
             words = words//"with "//trim(uses(i)%choice)//" = "
             call add_alternatives(trim(uses(i)%values), words)
@@ -176,7 +200,8 @@ contains
       end do
    end subroutine say_use
 
-   !> That a key has no effect, and why: `has no effect: it is used with law = 'power' or 'polydyne'; law is 'cycloidal'`.
+   !> That a key has no effect, and why: `has no effect: it is used with law = 'power' or 'polydyne'; law is 'cycloidal'`. One that
+   !> a command uses that is no run has none in a run.
    pure subroutine say_idle(settings, key, words)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -188,11 +213,15 @@ contains
       integer :: i
 
       call say_use(key, words)
-      words = "has no effect: it is used "//words
+      words = ": it is used "//words
+      if (any(uses%key == table_name(key) .and. uses%values == by_command)) words = " in a run"//words
+      words = "has no effect"//words
       do i = 1, size(uses)
          if (uses(i)%key /= table_name(key) .or. any(uses(i)%values == [character(len=choice_length) :: given, not_given])) cycle
          associate (value => settings%values(value_of(settings, choice_of(key, uses(i)))))
-            if (value%is_known) words = words//"; "//trim(uses(i)%choice)//" is '"//value%word//"'"
+            if (.not. value%is_known) return
+            words = words//"; "//trim(uses(i)%choice)//" is "
+            call add_alternatives(trim(word_of(value)), words)
          end associate
          return
       end do
@@ -225,10 +254,26 @@ contains
          case (not_given)
             verdict = .not. value%is_known
          case default
-            if (value%is_known) verdict = index(" "//use%values//" ", " "//value%word//" ") > 0
+            if (value%is_known) verdict = index(" "//use%values//" ", " "//trim(word_of(value))//" ") > 0
          end select
       end associate
    end function holds
+
+   !> A value as it stands in the table.
+   pure function word_of(value) result(word)
+      !> The value, a name or true or false
+      type(value_t), intent(in) :: value
+      !> The word
+      character(len=choice_length) :: word
+
+      if (allocated(value%word)) then
+         word = value%word
+      else if (value%flag) then
+         word = yes
+      else
+         word = no
+      end if
+   end function word_of
 
    !> Position of the value of `group.key`.
    pure function value_of(settings, key) result(position)
@@ -280,7 +325,7 @@ contains
       if (index(key, "sweep.") == 1 .and. scan(key(len_trim(key):), "123456789") == 1) name(len_trim(key):) = "#"
    end function table_name
 
-   !> Add words of a list as `'power' or 'polydyne'`.
+   !> Add words of a list as `'power' or 'polydyne'`, what is true or false without marks.
    pure subroutine add_alternatives(list, words)
       !> Words with single blanks between them
       character(len=*), intent(in) :: list
@@ -297,7 +342,11 @@ contains
          else if (first > 1) then
             words = words//", "
          end if
-         words = words//"'"//list(first:last)//"'"
+         if (any(list(first:last) == [character(len=len(no)) :: yes, no])) then
+            words = words//list(first:last)
+         else
+            words = words//"'"//list(first:last)//"'"
+         end if
          first = last + 2
       end do
    end subroutine add_alternatives

@@ -30,8 +30,7 @@ contains
          & "temperature that the film is sheared at: that of the oil, or the mean over the contact with the heat of friction")
       call add_number(schema, "oil_conductivity_W_m_K", positive, "thermal conductivity of the oil", &
          & default=standard%oil_conductivity)
-      call add_number(schema, "oil_heat_capacity_J_kg_K", positive, &
-         & "heat capacity of the oil; for contacts that are solved numerically (profiles of &ehl) alone", &
+      call add_number(schema, "oil_heat_capacity_J_kg_K", positive, "heat capacity of the oil", &
          & default=standard%oil_heat_capacity)
       call add_number(schema, "viscosity_fall_per_K", positive, &
          & "fall of ln(viscosity) per kelvin; for lubricant temperature_law 'direct' alone", is_optional=.true.)

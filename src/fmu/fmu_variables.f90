@@ -33,7 +33,7 @@ module camroller_fmu_variables
       character(len=:), allocatable :: kind
       !> Cam, from 1, or 0; place among the numbers of that cam, from 0
       integer :: cam = 0, place = 0
-      !> Key of the deck that it gives a value to
+      !> Key of the deck that it gives a value to, or name of the number of a series
       character(len=:), allocatable :: key
    end type variable_t
 
@@ -189,11 +189,11 @@ contains
       end if
       one%role = role_output
       one%kind = "series"
-      one%key = "-"
       one%cam = cam
       do i = columns(1), columns(2)
          one%place = i - columns(1)
-         one%name = series(i)%name
+         one%key = series(i)%name
+         one%name = one%key
          if (cam > 0) one%name = "cam["//integer_text(cam)//"]."//one%name
          one%unit = series(i)%unit
          one%meaning = series(i)%description

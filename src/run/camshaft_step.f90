@@ -3,8 +3,9 @@
 !> In: case, shaft, forces and torques of all followers at equally spaced angles of the step, inputs at both ends. Out: torques by
 !> source, means over the step and values at its end, extremes.
 !>
-!> Forces on the cams are taken at angles a degree apart at most; between them the bearings' torque follows Simpson's rule, whose
-!> difference from the trapezoidal rule counts for the error.
+!> Forces on the cams are taken at angles a degree apart at most, half a degree with flexible trains; between them the bearings'
+!> torque follows Simpson's rule, whose difference from the trapezoidal rule counts for the error, by its magnitude over each pair
+!> of intervals: over a step in which trains vibrate these differences change their sign.
 module camroller_camshaft_step
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t
@@ -14,6 +15,7 @@ module camroller_camshaft_step
    use camroller_follower_step, only : place_t, inputs_t, outcome_t, piece_number, inputs_between
    use camroller_part_series, only : bearing_count
    use camroller_shaft, only : shaft_t, set_drag, set_journal, in_common_frame, bearing_torques
+   use camroller_step_parts, only : part_number
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings, of_shaft_drag
    implicit none
    private
@@ -58,23 +60,26 @@ module camroller_camshaft_step
       real(wp), allocatable :: turned(:, :)
    end type step_room_t
 
-   !> Largest distance of angles at which forces on the cams are taken [rad]
-   real(wp), parameter :: node_spacing = degree
+   !> Largest distance of angles at which forces on the cams are taken, of rigid trains and of flexible ones, whose vibration a
+   !> degree does not resolve [rad]
+   real(wp), parameter :: node_spacing(2) = [1.0_wp, 0.5_wp]*degree
 
 contains
 
    !> Make room for a step where it is not there from an earlier one.
-   pure subroutine make_room(room, span, cams, camshafts)
+   pure subroutine make_room(room, span, is_flexible, cams, camshafts)
       !> The room
       type(step_room_t), intent(inout) :: room
       !> Cam angle of the step [rad]
       real(wp), intent(in) :: span
+      !> Are the trains flexible?
+      logical, intent(in) :: is_flexible
       !> Number of cams, of camshafts
       integer, intent(in) :: cams, camshafts
 
       integer :: intervals
 
-      intervals = interval_number(span)
+      intervals = interval_number(span, node_spacing(merge(2, 1, is_flexible)))
       if (.not. allocated(room%before)) allocate (room%before(cams), room%failures(cams), room%turned(2, cams), &
          & room%by_shaft(camshafts))
       if (allocated(room%nodes)) then
@@ -84,13 +89,13 @@ contains
    end subroutine make_room
 
    !> Intervals between the angles at which forces are taken: an even number in each piece of a step.
-   elemental function interval_number(span) result(intervals)
-      !> Cam angle of the step [rad]
-      real(wp), intent(in) :: span
+   elemental function interval_number(span, spacing) result(intervals)
+      !> Cam angle of the step, largest distance of the angles [rad]
+      real(wp), intent(in) :: span, spacing
       !> The number
       integer :: intervals
 
-      intervals = 2*piece_number(span)*ceiling(span/piece_number(span)/(2.0_wp*node_spacing))
+      intervals = 2*piece_number(span)*part_number(span/piece_number(span), 2.0_wp*spacing)
    end function interval_number
 
    !> Add the followers and their bearings up.
@@ -108,8 +113,8 @@ contains
       !> Domain error of the bearings
       type(error_t), allocatable, intent(out) :: error
 
-      ! Torque that drives everything at one of the angles; means by Simpson's and the trapezoidal rule [N m]
-      real(wp) :: drive, mean(2), coarse(2)
+      ! Torque that drives everything at one of the angles; means by Simpson's rule and their errors [N m]
+      real(wp) :: drive, mean(2), errors(2)
       integer :: i, k, last
 
       last = ubound(room%nodes, 2)
@@ -136,13 +141,13 @@ contains
          outcome%extreme_torque = [min(outcome%extreme_torque(1), drive), max(outcome%extreme_torque(2), drive)]
       end do
       do i = 1, 2
-         call take_means(room%losses(:, i), mean(i), coarse(i))
+         call take_mean(room%losses(:, i), mean(i), errors(i))
       end do
       outcome%by_camshaft(of_bearings, :) = room%by_shaft
       outcome%by_camshaft(of_shaft_drag, :) = shaft%drag
       outcome%torques = sum(outcome%by_camshaft, 2)
       outcome%mean_torques([of_bearings, of_shaft_drag]) = mean
-      outcome%estimated_error = outcome%estimated_error + sum(abs(mean - coarse))
+      outcome%estimated_error = outcome%estimated_error + sum(errors)
       outcome%mean_torque_friction = sum(outcome%mean_torques, mask=is_loss)
       outcome%mean_torque_drive = sum(outcome%mean_torques, mask=is_torque)
       outcome%torque_friction = sum(outcome%torques, mask=is_loss)
@@ -169,27 +174,25 @@ contains
       if (bearings > 0 .and. .not. allocated(outcome%bearings)) allocate (outcome%bearings(bearings, camshafts))
    end subroutine fit_outcome
 
-   !> Means of what is sampled at equal distances.
-   pure subroutine take_means(samples, mean, coarse)
+   !> Mean of what is sampled at equal distances, and its error.
+   pure subroutine take_mean(samples, mean, error)
       !> The samples, an even number after the first [any]
       real(wp), intent(in) :: samples(0:)
-      !> Mean by Simpson's and by the trapezoidal rule [any]
-      real(wp), intent(out) :: mean, coarse
+      !> Mean by Simpson's rule; what the trapezoidal rule differs from it in each pair of intervals, magnitudes added [any]
+      real(wp), intent(out) :: mean, error
 
       integer :: k, last
 
       last = ubound(samples, 1)
       mean = 0.0_wp
+      error = 0.0_wp
       do k = 2, last, 2
          mean = mean + (samples(k - 2) + 4.0_wp*samples(k - 1) + samples(k))
+         error = error + abs(samples(k - 2) - 2.0_wp*samples(k - 1) + samples(k))
       end do
       mean = mean/(3.0_wp*last)
-      coarse = 0.0_wp
-      do k = 1, last
-         coarse = coarse + (samples(k - 1) + samples(k))
-      end do
-      coarse = coarse/(2.0_wp*last)
-   end subroutine take_means
+      error = error/(6.0_wp*last)
+   end subroutine take_mean
 
    !> Torque of the bearings of each camshaft at inputs and forces.
    subroutine bearings_at(case, shaft, inputs, forces, turned, torques, error, bearings)

@@ -24,6 +24,7 @@ module camroller_follower_step
    use camroller_stick_slip, only : direction_at
    use camroller_follower_piece, only : follower_t, point_t, piece_means_t, cover_piece, fill_nodes, slip_tolerance, most_tries
    use camroller_step_error, only : slip_error_t, judge_point
+   use camroller_step_parts, only : part_number
    implicit none
    private
 
@@ -221,7 +222,7 @@ contains
       !> The number
       integer :: pieces
 
-      pieces = ceiling(span/longest_piece)
+      pieces = part_number(span, longest_piece)
    end function piece_number
 
    !> What follows from mean torques and the state at the end.

@@ -136,7 +136,8 @@ contains
       end if
       call check_shaft_step(shaft, cam_angle, pressures, error)
       if (allocated(error)) return
-      call make_room(shaft%room, cam_angle - shaft%angle, size(shaft%followers), shaft%shaft%count)
+      call make_room(shaft%room, cam_angle - shaft%angle, allocated(shaft%case%dynamics), &
+         & size(shaft%followers), shaft%shaft%count)
       if (has_films(shaft%followers(1))) kept = shaft%followers
       if (allocated(outcome%followers)) then
          if (size(outcome%followers) /= size(shaft%followers)) deallocate (outcome%followers)

@@ -16,6 +16,7 @@ module camroller_step_judge
    use camroller_number_text, only : append_number
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t
+   use camroller_step_parts, only : part_number
    implicit none
    private
 
@@ -44,7 +45,7 @@ contains
       hint = 1
       do k = 1, size(stops) - 1
          ! an even number, so that the middle is one of the angles
-         intervals = 2*max(1, ceiling((stops(k + 1) - stops(k))/(2.0_wp*degree)))
+         intervals = 2*part_number(stops(k + 1) - stops(k), 2.0_wp*degree)
          do i = 0, intervals
             angle = stops(k) + (stops(k + 1) - stops(k))*i/intervals
             call follow_ramp(model, angle)

@@ -271,6 +271,42 @@ def test_remarks_on_the_deck_are_warnings(write, tmp_path, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
+def test_a_parameter_that_changes_which_outputs_there_are_is_refused(write, tmp_path, version):
+    """With fewer modes the numbers of those left out were whatever memory held; with more the first step failed."""
+    words = [*ADJUSTER, "--set", "spring_surge.modes=2"]
+    unit = Unit(write(version, ROOT / "decks" / "dynamics.nml", "surge", words), tmp_path / "unit")
+    assert "cam[1].spring_mode_2" in unit.numbers and "cam[1].spring_mode_3" not in unit.numbers
+    for modes in (1, 3):
+        with pytest.raises(Exception):
+            unit.start(**{"spring_surge.modes": modes})
+        assert "spring_surge.modes: with such values there are other outputs" in unit.messages[-1] and "--set" in unit.messages[-1]
+        with pytest.raises(Exception):
+            unit.step(1e-3)
+        unit.unit.reset()
+    unit.start(**{"spring_surge.modes": 2})
+    unit.step(1e-3)
+    assert unit.get("cam[1].spring_mode_2") != 0.0
+    unit.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_choice_of_effects_is_of_runs(write, package, tmp_path, version):
+    """An FMU has all effects, which its writing and every start tell."""
+    words = ["--set", "effects.select=needed", "--set", "effects.negligible=0.1", "--set", "effects.quantity=slip"]
+    unit = Unit(write(version, ROOT / "decks" / "thesis.nml", "choice", words), tmp_path / "unit")
+    unit.start()
+    unit.step(1e-3)
+    remark = "effects.select = 'needed' is of runs"
+    assert len(unit.messages) == 1 and remark in unit.messages[0] and unit.statuses == [(1, "logStatusWarning")]
+    case = package.Case(ROOT / "decks" / "thesis.nml", set={"effects.select": "needed", "effects.negligible": 0.1, "effects.quantity": "slip"})
+    assert [line for line in case.remarks if remark in line] and not [line for line in case.run().remarks if remark in line]
+    outcome = package.Shaft(package.Case(ROOT / "decks" / "thesis.nml"), 0.0).step(
+        unit.get("speed") * 1e-3, package.Inputs(unit.get("speed"), unit.get("oil_temperature")))
+    assert unit.get("mean_torque_drive") == outcome.mean_torque_drive
+    unit.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
 def test_parameters_that_fit_only_together_are_taken(write, package, tmp_path, version):
     """A thicker wall needs the thinner needles, which come behind it."""
     deck = ROOT / "decks" / "thesis.nml"
@@ -461,6 +497,14 @@ def test_both_versions_and_both_writings_are_alike(write, camroller, cmake_prefi
     subprocess.run([camroller, "fmu", str(DECK), "-o", str(again), "--library", str(cmake_prefix / "lib" / "camroller"), "--quiet"],
                    check=True)
     assert again.read_bytes() == write("3").read_bytes()
+
+
+def test_remarks_on_the_deck_are_told_where_an_fmu_is_written(camroller, cmake_prefix, tmp_path):
+    words = [camroller, "fmu", str(ROOT / "decks" / "thesis.nml"), "-o", str(tmp_path / "x.fmu"), "--library",
+             str(cmake_prefix / "lib" / "camroller"), "--set", "effects.select=needed", "--set", "roller.mass_kg=5"]
+    told = subprocess.run(words, capture_output=True, text=True, check=True).stderr
+    assert "remark: effects.select = 'needed' is of runs" in told and "remark: roller.mass_kg = 5 is unusual" in told
+    assert subprocess.run([*words, "--quiet"], capture_output=True, text=True, check=True).stderr == ""
 
 
 def test_one_cam_and_other_folders(write, camroller, tmp_path):

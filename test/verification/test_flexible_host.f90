@@ -26,7 +26,8 @@ contains
          new_unittest("at 1 rev/min the train follows its cam, and after a halt it starts from rest", test_slow), &
          new_unittest("a step that fails leaves the train as it was; impossible inputs are refused", test_failure), &
          new_unittest("a shaft with one cam gives the bits of its follower", test_shaft), &
-         new_unittest("a head of three cams on their bearings becomes periodic with the torques of a run", test_head) &
+         new_unittest("a head of three cams on their bearings becomes periodic with the torques of a run", test_head), &
+         new_unittest("the estimated error of a step bounds that of the bearings of trains that vibrate", test_bearing_error) &
          ]
    end subroutine collect_flexible_host
 
@@ -230,5 +231,44 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_head
+
+   !> Vibrating loads on the bearings: what the rules for their means differ by changes its sign within a step.
+   subroutine test_bearing_error(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft, fine
+      type(shaft_outcome_t) :: outcome, part
+      type(inputs_t) :: inputs
+      type(error_t), allocatable :: failure
+      !> Length of a step [rad], cam angle at its start [rad], its mean torque in small steps [N m]
+      real(wp) :: length, from, mean
+      !> Largest error over its estimate [-]
+      real(wp) :: worst
+      integer, parameter :: steps = 40, parts = 40
+      integer :: i, k
+
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure)
+      if (has_failed(failure, error)) return
+      the_case%operating_point%speed = 1000.0_wp*pi/30.0_wp
+      the_case%masses%finger = 0.0418_wp
+      call add_dynamics(the_case, 0, .false.)
+      inputs = steady(the_case)
+      length = 5.0_wp*degree
+      worst = 0.0_wp
+      call start_shaft(shaft, the_case, 0.0_wp, failure, threads=2)
+      do i = 1, steps
+         from = (i - 1)*length
+         if (.not. allocated(failure)) fine = shaft
+         if (.not. allocated(failure)) call advance_shaft(shaft, from + length, inputs, inputs, outcome, failure)
+         mean = 0.0_wp
+         do k = 1, parts
+            if (.not. allocated(failure)) call advance_shaft(fine, from + length*k/parts, inputs, inputs, part, failure)
+            if (has_failed(failure, error)) return
+            mean = mean + part%mean_torque_drive/parts
+         end do
+         worst = max(worst, abs(outcome%mean_torque_drive - mean)/outcome%estimated_error)
+      end do
+      call check(error, worst <= 1.0_wp, "an error is larger than estimated")
+   end subroutine test_bearing_error
 
 end module test_flexible_host
