@@ -79,7 +79,7 @@ contains
          case%heat = heat_t(inlet_law="murch_wilson", contact="none")
          call solve_again(case, warm, error)
          if (allocated(error)) return
-         part = scalar_of(warm, "min_inlet_factor")
+         part = scalar_of(warm, "min_inlet_heat_factor")
          k = findloc(cool%remarks%kind, cool_inlet, 1)
          call check(error, (k > 0) .eqv. warms_inlets(i), "remark with "//number_text(part, 3))
          if (allocated(error)) return
