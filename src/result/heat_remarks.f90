@@ -6,7 +6,6 @@
 module camroller_heat_remarks
    use camroller_kinds, only : wp, two_pi
    use camroller_bearing_heat, only : bearing_heat_t, flow_covers_width, oil_flow, temperature_rise
-   use camroller_case, only : case_t
    use camroller_catalogue, only : lobe_prefix
    use camroller_error, only : error_t
    use camroller_journal, only : film_at, film_friction, find_tangent, journal_solved, journal_t, journal_without_film, &
