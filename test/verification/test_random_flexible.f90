@@ -177,7 +177,7 @@ contains
             return
          end if
          if (i == 1) call count_remarks(tally, results(i)%remarks)
-         trouble = trouble//check_numbers(results(i))//check_sums(case, results(i))//missing_words(results(i)) &
+         trouble = trouble//check_numbers(results(i))//check_sums(case, results(i))//missing_words(case, results(i)) &
             & //check_enclosed(case, results(i))
          if (allocated(case%lash_adjuster)) trouble = trouble//missing_oil(results(i))
       end do
@@ -185,10 +185,13 @@ contains
       if (trouble /= "") call count_ending(tally, "SILENT: a result that is not right")
    end subroutine check_deck
 
-   !> What happens in a train and no remark tells.
-   function missing_words(result) result(trouble)
+   !> What happens in a train and no remark tells. What the finger's weight would hold is no tension in its joint.
+   function missing_words(case, result) result(trouble)
+      type(case_t), intent(in) :: case
       type(result_t), intent(in) :: result
       character(len=:), allocatable :: trouble
+
+      real(wp), parameter :: gravity = 9.81_wp ! [m/s^2]
 
       trouble = ""
       associate (kinds => result%remarks%kind)
@@ -199,8 +202,8 @@ contains
             & all(kinds /= no_period)) trouble = trouble//" no period, and no word of it;"
          if (nint(scalar_of(result, "period_cycles")) > 1 .and. all(kinds /= long_period)) trouble = trouble// &
             & " a period of several cycles without a word;"
-         if (scalar_of(result, "joint_force_min_lowest") < 0.0_wp .and. all(kinds /= open_pivot)) trouble = trouble// &
-            & " the pivot's joint opens without a word;"
+         if (scalar_of(result, "joint_force_min_lowest") < -gravity*case%masses%finger .and. all(kinds /= open_pivot)) trouble = &
+            & trouble//" the pivot's joint opens without a word;"
       end associate
    end function missing_words
 
