@@ -13,7 +13,7 @@ module camroller_joint_setup
    implicit none
    private
 
-   public :: set_joints
+   public :: set_joints, find_arms
 
 contains
 
@@ -52,7 +52,7 @@ contains
       if (allocated(case%guide_side_load)) then
          allocate (joints%side)
          call new_side_part(joints%side, case%guide_side_load, joints%tip, &
-            & largest_offset(case%guide_side_load%stem_axis, linkage, lift_law), error)
+            & maxval(abs(find_arms(linkage, lift_law) - case%guide_side_load%stem_axis)), error)
          if (allocated(error)) return
       end if
       if (allocated(case%finger_pivot)) then
@@ -64,25 +64,24 @@ contains
          & "tip, stem and pivot of a flexible train, &dynamics, needs reversal speeds above zero")
    end subroutine set_joints
 
-   !> Largest distance of the pad's contact with the tip from the stem's axis, from the closed valve to full lift.
-   pure function largest_offset(stem_axis, linkage, lift_law) result(offset)
-      !> Distance of the stem's axis from the pivot, across it [m]
-      real(wp), intent(in) :: stem_axis
+   !> Smallest and largest distance of the pad's contact with the tip from the pivot, across the stem's axis, from the closed valve
+   !> to full lift.
+   pure function find_arms(linkage, lift_law) result(arms)
       !> The linkage
       type(linkage_t), intent(in) :: linkage
       !> Lift of the lobe
       type(lift_law_t), intent(in) :: lift_law
-      !> Distance [m]
-      real(wp) :: offset
+      !> Distances [m]
+      real(wp) :: arms(2)
 
-      ! Lift and its derivatives [m/rad^n]; cosines of gamma + chi with the valve closed and at full lift [-]; arms [m]
-      real(wp) :: lift(0:3), cosines(2), arms(2)
+      ! Lift and its derivatives [m/rad^n]; cosines of gamma + chi with the valve closed and at full lift [-]
+      real(wp) :: lift(0:3), cosines(2)
 
       call evaluate_lift(lift_law, 0.0_wp, lift)
       cosines = linkage%base_cosine - [0.0_wp, lift(0)]/linkage%b
       arms = linkage%b*sqrt(max(0.0_wp, (1.0_wp - cosines)*(1.0_wp + cosines)))
-      offset = maxval(abs(arms - stem_axis))
-      if (cosines(1)*cosines(2) < 0.0_wp) offset = max(offset, abs(linkage%b - stem_axis))
-   end function largest_offset
+      arms = [minval(arms), maxval(arms)]
+      if (cosines(1)*cosines(2) < 0.0_wp) arms(2) = linkage%b
+   end function find_arms
 
 end module camroller_joint_setup

@@ -165,9 +165,9 @@ contains
       call add_number(schema, "closing_half_angle_deg", up_to(180.0_wp), &
          & "cam angle from full lift to the end of lift; as opening_half_angle_deg where not given", is_optional=.true.)
       call add_integers(schema, "exponents", from_to(1.0_wp, real(largest_exponent, wp)), &
-         & "'power': n of (1 - x^2)^n, 3 or more; 'polydyne': four exponents of x, increasing; with more than 200 the lift "// &
-         & "would bend within less than a 200th of the half angle, to which no cam is ground", example="4", &
-         & is_optional=.true.)
+         & "'power': n of (1 - x^2)^n, 3 or more; 'polydyne': four exponents of x, increasing, the first one 3 or more; with "// &
+         & "more than 200 the lift would bend within less than a 200th of the half angle, to which no cam is ground", &
+         & example="4", is_optional=.true.)
       call add_numbers(schema, "segment_angles_deg", from_to(0.0_wp, 360.0_wp), &
          & "cam angles from the start of lift, five or more, 0 first", is_optional=.true.)
       call add_numbers(schema, "segment_accelerations", anything, &

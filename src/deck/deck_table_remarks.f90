@@ -3,12 +3,17 @@
 !>
 !> In: settings and a table. Out: sentences. Nothing is refused for them.
 module camroller_deck_table_remarks
+   use camroller_case, only : case_t, gas_force_of
+   use camroller_deck_case, only : fill_case
    use camroller_deck_engine, only : strokes_of
-   use camroller_deck_tables, only : get_lift_table, get_pressure_table
+   use camroller_deck_tables, only : ask_crank, deck_tables_t, get_lift_table, get_pressure_table
+   use camroller_dynamics, only : gas_force_t
    use camroller_engine, only : from_firing
+   use camroller_error, only : error_t
    use camroller_kinds, only : degree, wp
-   use camroller_lift, only : lift_t
+   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law
    use camroller_lift_noise, only : find_lift_noise, find_outlier, lift_noise_t
+   use camroller_lift_table, only : find_event
    use camroller_text_lines, only : add_line, line_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_settings, only : get_word, has_group, is_known, settings_t, take
@@ -23,13 +28,16 @@ module camroller_deck_table_remarks
    integer, parameter :: digits = 6
    !> Usual lengths of an event [deg of cam angle], and usual lifts [m]
    real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
+   !> Part of the largest lift below which a lift may be noise, and above which a valve is open [-]
+   real(wp), parameter :: nearly_zero = 0.01_wp, open_part = 0.1_wp
    !> Part of the largest lift that counts as full lift, which a lift is near to for a degree or two [-]; distance of full lift from
    !> the nose beyond what cams and measurements are off by [deg]
    real(wp), parameter :: full_part = 0.999_wp, usual_offset = 5.0_wp
    !> Usual largest magnitudes of a gauge pressure: from pulses in a manifold to a truck's engine under full load [Pa]
    real(wp), parameter :: usual_pressure(2) = [2.0e3_wp, 3.0e7_wp]
-   !> Gauge pressure that nothing is below: a vacuum, and some high weather [Pa]
-   real(wp), parameter :: vacuum = -1.1e5_wp
+   !> Gauge pressure that nothing is below: a vacuum, and some high weather; gauge pressure that only combustion has; smallest of a
+   !> turn where absolute pressures are given, from a throttled to a supercharged engine [Pa]
+   real(wp), parameter :: vacuum = -1.1e5_wp, of_combustion = 1.0e6_wp, absolute(2) = [0.4e5_wp, 1.6e5_wp]
    !> Powers of ten between a table's unit and another one; nearer ones first
    integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
 
@@ -51,7 +59,7 @@ contains
       ! Largest lift [m]; length of the event, middle of full lift from the nose [deg]
       real(wp) :: largest, length, full
       character(len=:), allocatable :: words
-      integer :: i, first, last
+      integer :: i, first, last, low, high
 
       if (.not. allocated(table%x) .or. get_word(settings, group, "law") /= "table") return
       if (size(table%x) == 0) return
@@ -73,15 +81,43 @@ contains
       if (abs(full) > usual_offset) call add_line(remarks, table%path//": the largest lift is "//number_text(abs(full), 3)// &
          & " degrees "//trim(merge("before", "behind", full < 0.0_wp))//" the nose, from which phases, gas pressure and cam "// &
          & "angles count; is 'table_nose_angle_deg' of &"//group//" right?")
-      length = (angle(size(angle)) - angle(1))/degree
+      call remark_event(settings, group, table%path, angle, lift, low, high, remarks)
+      length = (angle(high) - angle(low))/degree
       if (length >= usual_event(1) .and. length <= usual_event(2)) return
       words = ""
-      if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = &
-         & "; is the angle that of the crankshaft? A table takes the cam's, half of it"
+      if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = ask_crank
+      if (2*count(lift(low:high) < nearly_zero*largest) > high - low + 1) words = "; most of its lifts are below "// &
+         & number_text(100.0_wp*nearly_zero, digits)//" % of the largest: where they are noise on the base circle, set them to 0"
       call add_line(remarks, table%path//": an event of "//number_text(length, digits)// &
          & " degrees of cam angle is unusual: engines have "//number_text(usual_event(1), digits)//" to "// &
          & number_text(usual_event(2), digits)//words)
    end subroutine remark_lift
+
+   !> The event of a lift table that has noise on the base circle.
+   subroutine remark_event(settings, group, path, angle, lift, low, high, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group of the lift, path of its table
+      character(len=*), intent(in) :: group, path
+      !> Cam angle from the nose [rad], lift of the valve [m]
+      real(wp), intent(in) :: angle(:), lift(:)
+      !> First and last row of the event
+      integer, intent(out) :: low, high
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Smoothing, farthest row from zero beyond the event [m]; cam angle of the nose in the table [rad]
+      real(wp) :: smoothing, farthest, nose
+
+      call take(settings, group, "smoothing_um", smoothing)
+      call find_event(angle, lift, smoothing, low, high)
+      farthest = maxval(abs([0.0_wp, lift(:low), lift(high:)]))
+      if (farthest <= 0.0_wp) return
+      call take(settings, group, "table_nose_angle_deg", nose)
+      call add_line(remarks, path//": the event is taken from "//number_text((angle(low) + nose)/degree, digits)//" to "// &
+         & number_text((angle(high) + nose)/degree, digits)//" degrees; lifts beyond it, up to "// &
+         & number_text(1.0e6_wp*farthest, 2)//" um from zero, count as noise on the base circle")
+   end subroutine remark_event
 
    !> A lift table whose noise makes up the acceleration.
    subroutine remark_noise(settings, group, table, remarks)
@@ -140,30 +176,41 @@ contains
    end subroutine remark_rows
 
    !> A table of cylinder pressure in another unit.
-   subroutine remark_pressure(settings, table, remarks)
+   subroutine remark_pressure(settings, tables, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
-      !> The table
-      type(table_t), intent(in) :: table
+      !> Its tables
+      type(deck_tables_t), intent(in) :: tables
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
+      type(table_t) :: table
       type(unit_t) :: unit
       logical :: is_there
-      ! Largest magnitude [unit of the table], [Pa]
-      real(wp) :: largest, pressure
+      ! Largest magnitude [unit of the table]; it, and the smallest pressure [Pa]
+      real(wp) :: largest, pressure, smallest
       character(len=:), allocatable :: words
-      integer :: i
+      integer :: i, before
 
+      table = tables%pressure
       if (.not. has_group(settings, "gas_force") .or. .not. allocated(table%y)) return
       if (size(table%x) == 0) return
       largest = maxval(abs(table%y))
       call find_unit(get_word(settings, "gas_force", "pressure_unit"), unit, is_there)
-      if (to_si(unit, minval(table%y)) < vacuum) call add_line(remarks, table%path//": a gauge pressure of "// &
-         & number_text(1.0e-6_wp*to_si(unit, minval(table%y)), digits)//" MPa is below that of a vacuum, which only a higher "// &
+      smallest = to_si(unit, minval(table%y))
+      if (smallest < vacuum) call add_line(remarks, table%path//": a gauge pressure of "// &
+         & number_text(1.0e-6_wp*smallest, digits)//" MPa is below that of a vacuum, which only a higher "// &
          & "pressure in the port explains; positive pressures press the valve shut")
-      call remark_firing(settings, table, remarks)
       pressure = to_si(unit, largest)
+      if (is_usual_pressure(pressure) .and. pressure >= of_combustion .and. smallest >= absolute(1) .and. &
+         & smallest <= absolute(2)) then
+         call add_line(remarks, table%path//": no pressure of the turn is below "//number_text(1.0e-6_wp*smallest, digits)// &
+            & " MPa; are these absolute pressures? The table takes gauge pressures")
+      end if
+      before = size(remarks)
+      call remark_firing(settings, table, remarks)
+      if (size(remarks) == before .and. is_usual_pressure(pressure)) call remark_open_valve(settings, tables, remarks)
+      call remark_seam(table, remarks)
       if (is_usual_pressure(pressure) .or. .not. largest > 0.0_wp) return
       words = ""
       do i = 1, size(pressure_unit_names)
@@ -185,9 +232,8 @@ contains
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Gauge pressure that only combustion has [Pa]; crank angle from the dead centre of firing, within which it is at its largest
-      ! in any engine [rad]
-      real(wp), parameter :: of_combustion = 1.0e6_wp, far = 60.0_wp*degree
+      ! Crank angle from the dead centre of firing, within which the pressure is at its largest in any engine [rad]
+      real(wp), parameter :: far = 60.0_wp*degree
       ! Cam angle from full lift [rad], pressure [Pa], crank angles of full lift, of the largest pressure [rad]
       real(wp), allocatable :: angle(:), pressure(:), full_lift(:)
       real(wp) :: place
@@ -202,6 +248,76 @@ contains
          & number_text(abs(place)/degree, 3)//" degrees of crank angle "//trim(merge("before", "behind", place < 0.0_wp))// &
          & " the firing of the cylinder, from which engine.full_lift_deg counts; is gas_force.table_nose_angle_deg right?")
    end subroutine remark_firing
+
+   !> A pressure of combustion on an open valve.
+   subroutine remark_open_valve(settings, tables, remarks)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Their tables
+      type(deck_tables_t), intent(in) :: tables
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(case_t) :: case
+      type(lift_t), allocatable :: lift
+      type(lift_law_t) :: law
+      type(gas_force_t) :: gas
+      type(error_t), allocatable :: error
+      ! Lift and its derivatives [m/rad^n], lifts at the rows of the pressure, largest lift [m]; pressure on the open valve [Pa]
+      real(wp) :: values(0:3), largest, pressure
+      real(wp), allocatable :: lifts(:)
+      integer :: lobe, i
+
+      call fill_case(settings, tables, case)
+      do lobe = 1, 2
+         lift = case%lift
+         if (lobe == 2) then
+            if (.not. allocated(case%second_lift)) return
+            lift = case%second_lift
+         end if
+         call gas_force_of(case, lobe, gas)
+         call new_lift_law(law, lift, error)
+         if (allocated(error)) return
+         call evaluate_lift(law, 0.0_wp, values)
+         largest = values(0)
+         allocate (lifts(size(gas%angle)))
+         do i = 1, size(lifts)
+            call evaluate_lift(law, gas%angle(i), values)
+            lifts(i) = values(0)
+         end do
+         i = maxloc(gas%pressure, dim=1, mask=lifts >= open_part*largest)
+         deallocate (lifts)
+         if (i == 0) cycle
+         pressure = gas%pressure(i)
+         if (pressure < of_combustion) cycle
+         call evaluate_lift(law, gas%angle(i), values)
+         call add_line(remarks, tables%pressure%path//": "//number_text(1.0e-6_wp*pressure, 4)//" MPa press on a valve open by "// &
+            & number_text(1.0e3_wp*values(0), 3)//" mm, as no combustion does; is gas_force.table_nose_angle_deg right?")
+         return
+      end do
+   end subroutine remark_open_valve
+
+   !> A jump of the pressure from the last row of a turn to its first one.
+   subroutine remark_seam(table, remarks)
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! A jump, over the largest step from row to row, and over the range of the pressure [-]
+      real(wp), parameter :: over_step = 3.0_wp, over_range = 0.2_wp
+      ! The jump, largest step, range [unit of the table]
+      real(wp) :: jump, step, range
+      integer :: n
+
+      n = size(table%y)
+      jump = abs(table%y(n) - table%y(1))
+      step = maxval(abs(table%y(2:) - table%y(:n - 1)))
+      range = maxval(table%y) - minval(table%y)
+      if (jump <= over_step*step .or. jump <= over_range*range) return
+      call add_line(remarks, table%path//": the pressure jumps from "//number_text(table%y(n), digits)//" in its last row to "// &
+         & number_text(table%y(1), digits)//" in its first one, where the turn of the camshaft closes"//ask_crank)
+   end subroutine remark_seam
 
    !> Is a largest pressure usual?
    elemental function is_usual_pressure(pressure) result(verdict)

@@ -13,16 +13,19 @@ module camroller_deck_tables
    use camroller_kinematics, only : mechanism_t
    use camroller_lift_forms, only : closes_triangle, follow_contour, kind_contour, kind_roller, table_kind_names, &
       & valve_lift_of
+   use camroller_lift_table, only : noise_reach
    use camroller_text_file, only : join_path
    use camroller_table_file, only : check_spacing, columns_t, read_table, table_t
    implicit none
    private
 
    public :: deck_tables_t, kept_table_t, table_groups, find_table, obtain_tables, get_lift_table, get_pressure_table
-   public :: wanted_columns, take_mechanism
+   public :: wanted_columns, take_mechanism, ask_crank
 
    !> Groups whose key `table` names a table of two columns
    character(len=*), parameter :: table_groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force"]
+   !> What to ask of angles that are too many for a cam
+   character(len=*), parameter :: ask_crank = "; is the angle that of the crankshaft? A table takes the cam's, half of it"
    !> Fewest rows of a table
    integer, parameter :: fewest_rows = 8
    !> The largest lift must be so near to the nose [deg]
@@ -134,6 +137,8 @@ contains
          call read_table(path, table, mistakes, error, columns)
       end if
       if (allocated(error)) then
+         if (index(get_word(settings, group, "table"), "/") /= 1) error%message = error%message// &
+            & "; the path of a table starts at the deck's folder"
          call complain(mistakes, settings, group, "table", error%message)
       else if (mistakes%count == before .and. size(table%x) < fewest_rows) then
          call add_mistake(mistakes, "the table has "//integer_text(size(table%x))//" of at least "// &
@@ -186,8 +191,8 @@ contains
       real(wp), allocatable :: lift(:)
       !> Cam angle of the nose in the table [rad] and [deg]
       real(wp) :: nose, nose_degrees
-      !> What counts as zero lift, relative to the largest [-]
-      real(wp) :: nothing
+      !> What counts as zero lift [unit of the file]; smoothing [m]
+      real(wp) :: nothing, smoothing
       type(mechanism_t) :: mechanism
       type(unit_t) :: unit
       logical :: is_there
@@ -203,32 +208,33 @@ contains
       call take_mechanism(settings, mechanism)
       call find_unit(get_word(settings, group, "table_unit"), unit, is_there)
       lift = table%y
-      nothing = zero_lift
-      if (kind == kind_contour) then
-         lift = lift - from_si(unit, mechanism%base_radius)
-         nothing = zero_height
-      end if
+      if (kind == kind_contour) lift = lift - from_si(unit, mechanism%base_radius)
       top = maxloc(lift, dim=1)
       largest = lift(top)
+      nothing = zero_height*largest
+      if (kind /= kind_contour) then
+         smoothing = 0.0_wp
+         call take(settings, group, "smoothing_um", smoothing)
+         nothing = max(zero_lift*largest, from_si(unit, noise_reach*smoothing))
+      end if
       if (largest <= 0.0_wp) then
          call row_mistake(table, top, trim(merge("no radius is above the base circle's", "the table has no lift above zero    ", &
             & kind == kind_contour)), mistakes)
          return
       end if
-      if (abs(lift(1)) > nothing*largest) call row_mistake(table, 1, trim(merge("the contour must start on the base circle", &
-         & "the lift must start at zero              ", kind == kind_contour)), mistakes)
-      if (abs(lift(n)) > nothing*largest) call row_mistake(table, n, trim(merge("the contour must end on the base circle", &
-         & "the lift must end at zero              ", kind == kind_contour)), mistakes)
-      if (any(lift < -nothing*largest)) call row_mistake(table, minloc(lift, dim=1), trim(merge( &
-         & "a radius below the base circle's", "negative lift                   ", kind == kind_contour)), mistakes)
+      call check_rest(group, table, lift, nothing, kind == kind_contour, mistakes)
       if (kind == kind_roller) then
          if (.not. closes_triangle(mechanism, to_si(unit, largest))) call row_mistake(table, top, "the roller cannot be so far "// &
             & "from the cam: its arm is shorter; is this a lift of the roller ('table_kind'), and is 'table_unit' right?", mistakes)
       end if
       ! What is not lifted may be anywhere: a contour closes, wherever its polar angle begins
-      first = findloc(lift > nothing*largest, .true., dim=1)
-      last = findloc(lift > nothing*largest, .true., dim=1, back=.true.)
-      if (abs(table%x(top) - nose_degrees) > nose_distance) then
+      first = findloc(lift > nothing, .true., dim=1)
+      last = findloc(lift > nothing, .true., dim=1, back=.true.)
+      if (max(abs(table%x(top)), table%x(n) - table%x(1)) > 360.0_wp .and. kind /= kind_contour .and. &
+         & abs(table%x(top) - nose_degrees) > nose_distance) then
+         call row_mistake(table, top, "the largest lift is at "//number_text(table%x(top), 6)//" of "// &
+            & number_text(table%x(1), 6)//" to "//number_text(table%x(n), 6)//" degrees"//ask_crank, mistakes)
+      else if (abs(table%x(top) - nose_degrees) > nose_distance) then
          call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)// &
             & " degrees, is far from the "// &
             & "nose at "//number_text(nose_degrees, 6)//"; see 'table_nose_angle_deg' of &"//group, mistakes)
@@ -239,6 +245,35 @@ contains
          call check_contour(settings, group, table, mechanism, mistakes)
       end if
    end subroutine check_lift
+
+   !> Does a table start and end at zero, and go nowhere below?
+   subroutine check_rest(group, table, lift, nothing, is_contour, mistakes)
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Its lift, of a contour the height over the base circle; what counts as zero [unit of the file]
+      real(wp), intent(in) :: lift(:), nothing
+      !> Is it a contour?
+      logical, intent(in) :: is_contour
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      character(len=:), allocatable :: advice
+      integer :: n
+
+      n = size(lift)
+      if (is_contour) then
+         if (abs(lift(1)) > nothing) call row_mistake(table, 1, "the contour must start on the base circle", mistakes)
+         if (abs(lift(n)) > nothing) call row_mistake(table, n, "the contour must end on the base circle", mistakes)
+         if (any(lift < -nothing)) call row_mistake(table, minloc(lift, dim=1), "a radius below the base circle's", mistakes)
+         return
+      end if
+      advice = "; where rows on the base circle hold noise, set them to 0, or give 'smoothing_um' of &"//group
+      if (abs(lift(1)) > nothing) call row_mistake(table, 1, "the lift must start at zero"//advice, mistakes)
+      if (abs(lift(n)) > nothing) call row_mistake(table, n, "the lift must end at zero"//advice, mistakes)
+      if (any(lift < -nothing)) call row_mistake(table, minloc(lift, dim=1), "negative lift"//advice, mistakes)
+   end subroutine check_rest
 
    !> Can the roller follow a contour?
    subroutine check_contour(settings, group, table, mechanism, mistakes)
@@ -333,7 +368,7 @@ contains
       widest = maxval(table%x(2:) - table%x(:n - 1))
       if (length > 360.0_wp .or. length < 360.0_wp - 2.0_wp*widest) then
          call row_mistake(table, n, "the table must cover one turn of the camshaft, 360 degrees, not "// &
-            & number_text(length, 6), mistakes)
+            & number_text(length, 6)//trim(merge(ask_crank, repeat(" ", len(ask_crank)), length > 360.0_wp)), mistakes)
       else if (length >= 360.0_wp .and. abs(table%y(n) - table%y(1)) > same_pressure*maxval(abs(table%y))) then
          call row_mistake(table, n, "the pressure must end as it begins, with "//number_text(table%y(1), 10), mistakes)
       end if
@@ -393,6 +428,7 @@ contains
       last = min(size(table%y), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)
       angle = table%x(first:last)*degree - nose
       lift = to_si(unit, table%y(first:last))
+      where (lift < 0.0_wp .and. lift >= -zero_lift*maxval(lift)) lift = 0.0_wp
       if (kind == kind_roller) lift = valve_lift_of(mechanism, lift)
    end subroutine get_lift_table
 

@@ -55,7 +55,8 @@ contains
       call add_number(schema, "oil_share", from_to(0.0_wp, 1.0_wp), &
          & "part of the friction's heat that the oil carries away; the rest goes into the metal", default=usual_heat%oil_share)
       call add_group(schema, "shaft_drag", group_effect, &
-         & "torque of the seals and of the belt or chain on each camshaft, as a table over speed and temperature")
+         & "torque of the seals and of the belt or chain on each camshaft, as a table over speed and temperature; needs "// &
+         & "&cam_bearings")
       call add_numbers(schema, "speed_points_rpm", not_negative, "speeds of the camshaft, increasing; with one alone the "// &
          & "torque does not depend on it", example="0, 1000, 3000")
       call add_numbers(schema, "temperature_points_degC", above_absolute_zero, "temperatures of the oil, increasing; with one "// &

@@ -10,7 +10,7 @@ module camroller_deck_sense
    use camroller_needle, only : has_needles, kind_skf, roller_bearing_names
    use camroller_number_text, only : counted, integer_text, number_text
    use camroller_oil_data, only : smallest_indexed, viscosity_at_40
-   use camroller_settings, only : get_word, has_group, is_known, settings_t, take
+   use camroller_settings, only : find_value, get_word, has_group, is_known, settings_t, take
    implicit none
    private
 
@@ -133,7 +133,7 @@ contains
          & ": radius, wall and needles of the roller give "//number_text(mm*by_others, digits)//" mm")
    end subroutine compare_roller_bearing
 
-   !> The guide of &valve_guide is that of &guide_side_load; the valve's tip stays above it, and the pad reaches it.
+   !> The guide of &valve_guide is that of &guide_side_load; the valve's tip stays above it.
    subroutine compare_guide(settings, left_out, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -161,10 +161,6 @@ contains
             & " mm")
          exit
       end do
-      call get(settings, left_out, group//".stem_axis_mm mechanism.pivot_to_pad_mm", value, are_there)
-      if (are_there .and. value(1) > (1.0_wp + room)*value(2)) call add_line(remarks, group//".stem_axis_mm = "// &
-         & number_text(mm*value(1), digits)//": the pad is "//number_text(mm*value(2), digits)// &
-         & " mm from the pivot and would not reach the valve")
    end subroutine compare_guide
 
    !> Two viscosities of one oil.
@@ -311,9 +307,10 @@ contains
 
       ! Crank angles of full lift [rad]
       real(wp), allocatable :: full_lift(:)
-      ! Nearest to firing that a valve of a four-stroke engine is wide open: exhaust valves begin to open there [rad]
-      real(wp), parameter :: near_firing = 120.0_wp*degree
-      integer, allocatable :: cylinders_of_cams(:)
+      ! Nearest to firing that a valve of a four-stroke engine is wide open: exhaust valves are so at 240 to 265 degrees, and half
+      ! of that is no crank angle [rad]
+      real(wp), parameter :: near_firing = 170.0_wp*degree
+      integer, allocatable :: cylinders_of_cams(:), cams(:)
       integer :: cylinders, i, idle
 
       if (.not. (has_group(settings, "engine") .and. has_group(settings, "cam_bearings"))) return
@@ -324,16 +321,20 @@ contains
             if (abs(from_firing(full_lift(i), strokes_of(settings))) >= near_firing) cycle
             call add_line(remarks, "engine.full_lift_deg = "//number_text(full_lift(i)/degree, digits)// &
                & ": a valve would be wide open within "//number_text(near_firing/degree, digits)//" degrees of the "// &
-               & "firing of its cylinder, from which full lift counts")
+               & "firing of its cylinder, from which full lift counts in degrees of the crankshaft")
             exit
          end do
       end if
       if (.not. (is_known(settings, "engine", "cylinders") .and. is_known(settings, "cam_bearings", "cam_cylinders"))) return
       call take(settings, "engine", "cylinders", cylinders)
       call take(settings, "cam_bearings", "cam_cylinders", cylinders_of_cams)
-      idle = count([(.not. any(cylinders_of_cams == i), i=1, cylinders)])
+      cams = [(count(cylinders_of_cams == i), i=1, cylinders)]
+      idle = count(cams == 0)
       if (idle > 0) call add_line(remarks, "cam_bearings.cam_cylinders: "//counted(idle, "cylinder")//" of "// &
          & integer_text(cylinders)//" without a cam; torques and friction mean effective pressure are those of the others")
+      if (idle == 0 .and. minval(cams) < maxval(cams)) call add_line(remarks, "cam_bearings.cam_cylinders: cylinder "// &
+         & integer_text(minloc(cams, 1))//" has "//counted(minval(cams), "cam")//", cylinder "// &
+         & integer_text(maxloc(cams, 1))//" has "//integer_text(maxval(cams))//"; is the list right?")
    end subroutine look_at_engine
 
    !> Temperatures of the oil without a law of its viscosity.
@@ -347,11 +348,16 @@ contains
 
       character(len=*), parameter :: key = "operating_point.oil_temperature_degC", users(*) = [character(len=17) :: "heat", &
          & "friction_modifier", "boundary_law", "tribofilm", "needle_drag", "shaft_drag"]
+      character(len=:), allocatable :: words
       integer :: i
 
-      if (.not. any(varied == key) .or. any(varied == "lubricant.temperature_law")) return
-      if (get_word(settings, "lubricant", "temperature_law") /= "direct") return
-      call add_line(remarks, key//" varies "//trim(merge("but not the oil's viscosity", "without effect             ", &
+      if (any(varied == "lubricant.temperature_law") .or. get_word(settings, "lubricant", "temperature_law") /= "direct") return
+      words = " varies "
+      if (.not. any(varied == key)) then
+         if (.not. allocated(settings%values(find_value(settings, "operating_point", "oil_temperature_degC"))%source)) return
+         words = " is given beside the deck "
+      end if
+      call add_line(remarks, key//words//trim(merge("but not the oil's viscosity", "without effect             ", &
          & is_known(settings, "lubricant", "pressure_viscosity_points_per_GPa") .or. &
          & any([(has_group(settings, trim(users(i))), i=1, size(users))])))//": lubricant.temperature_law is 'direct', one "// &
          & "viscosity at all temperatures")

@@ -97,7 +97,8 @@ contains
          !> Key of the deck that decides, what the heading has, what it should have
          character(len=*), intent(in) :: key, found, wanted
 
-         call complain(mistakes, settings, group, key, "the heading of the table has '"//found//"', not "//wanted)
+         call complain(mistakes, settings, group, key, "'"//table%path//"': the heading of the table has '"//found//"', not "// &
+            & wanted)
       end subroutine complain_about
 
    end subroutine check_heading

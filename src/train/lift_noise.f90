@@ -1,13 +1,12 @@
 !> Noise of a lift table, and what it does to the acceleration; a single row that does not go with its neighbours.
 !>
 !> In: a table of lift over cam angle. Out: an estimate of the noise, and the acceleration with and without smoothing by as much;
-!> the row that is off, and by how much. The estimate takes sixth differences, in which a smooth lift cancels: uncorrelated noise of
-!> standard deviation s has differences of s sqrt(924). Their median is taken, so that the ends of the event and single bad rows do
-!> not count. A row that is off by e has fourth differences of e (1, -4, 6, -4, 1) about it.
+!> the row that is off, and by how much. A row that is off by e has fourth differences of e (1, -4, 6, -4, 1) about it.
 module camroller_lift_noise
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t
    use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law
+   use camroller_lift_table, only : estimate_noise, has_even_rows, median, median_deviate
    implicit none
    private
 
@@ -25,14 +24,6 @@ module camroller_lift_noise
       real(wp) :: residual = 0.0_wp
    end type lift_noise_t
 
-   !> Fewest rows
-   integer, parameter :: fewest_rows = 24
-   !> Largest step over the smallest [-]
-   real(wp), parameter :: most_uneven = 1.01_wp
-   !> Order of the differences
-   integer, parameter :: order = 6
-   !> Sum of their squared coefficients; median of the size of a normal deviate [-]
-   real(wp), parameter :: squares = 924.0_wp, median_deviate = 0.6745_wp
    !> Step in which the acceleration is looked at [rad]
    real(wp), parameter :: step = 0.25_wp*degree
 
@@ -67,10 +58,7 @@ contains
       row = 0
       offset = 0.0_wp
       n = size(lifts)
-      if (n < fewest_rows) return
-      associate (steps => angles(2:) - angles(:n - 1))
-         if (maxval(steps) > most_uneven*minval(steps)) return
-      end associate
+      if (.not. has_even_rows(angles)) return
       allocate (second(2:n - 1), fourth(3:n - 2))
       second = lifts(3:) - 2.0_wp*lifts(2:n - 1) + lifts(:n - 2)
       fourth = second(4:) - 2.0_wp*second(3:n - 2) + second(:n - 3)
@@ -119,22 +107,15 @@ contains
       type(lift_law_t) :: law
       type(lift_t) :: other
       type(error_t), allocatable :: error
-      ! Differences [m]; lift and its derivatives [m, m/rad, ...]
-      real(wp), allocatable :: differences(:)
+      ! Lift and its derivatives [m, m/rad, ...]
       real(wp) :: values(0:3)
+      logical :: is_known
       integer :: i, n
 
       if (.not. allocated(lift%table_lift)) return
       n = size(lift%table_lift)
-      if (n < fewest_rows) return
-      associate (steps => lift%table_angle(2:) - lift%table_angle(:n - 1))
-         if (maxval(steps) > most_uneven*minval(steps)) return
-      end associate
-      differences = lift%table_lift
-      do i = 1, order
-         differences = differences(2:) - differences(:size(differences) - 1)
-      end do
-      noise%noise = median(abs(differences))/(median_deviate*sqrt(squares))
+      call estimate_noise(lift%table_angle, lift%table_lift, noise%noise, is_known)
+      if (.not. is_known) return
       call new_lift_law(law, lift, error)
       if (allocated(error)) return
       call find_range(law, lift, noise%given)
@@ -171,22 +152,5 @@ contains
          range = [min(range(1), values(2)), max(range(2), values(2))]
       end do
    end subroutine find_range
-
-   !> Median of some numbers.
-   pure function median(numbers)
-      !> The numbers [any]
-      real(wp), intent(in) :: numbers(:)
-      !> Their median [any]
-      real(wp) :: median
-
-      integer :: i, rank, below
-
-      median = 0.0_wp
-      rank = (size(numbers) + 1)/2
-      do i = 1, size(numbers)
-         below = count(numbers < numbers(i))
-         if (below < rank .and. below + count(abs(numbers - numbers(i)) <= 0.0_wp) >= rank) median = numbers(i)
-      end do
-   end function median
 
 end module camroller_lift_noise

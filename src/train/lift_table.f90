@@ -1,8 +1,10 @@
 !> Lift event from a table of cam angle and lift.
 !>
 !> A part of `lift.f90`. In: a table over an event or over a full turn. Out: a spline over the event. A table with a dwell at
-!> zero is cut to its event, which starts and ends with zero lift, slope and curvature; a table of a full turn without dwell is
-!> periodic.
+!> zero, or at noise about zero, is cut to its event, which starts and ends with zero lift, slope and curvature; a table of a full
+!> turn without dwell is periodic. The estimate of the noise takes sixth differences, in which a smooth lift cancels: uncorrelated
+!> noise of standard deviation s has differences of s sqrt(924). Their median is taken, so that the ends of the event and single bad
+!> rows do not count.
 module camroller_lift_table
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp, two_pi, degree
@@ -12,7 +14,7 @@ module camroller_lift_table
    implicit none
    private
 
-   public :: new_table_event
+   public :: new_table_event, find_event, estimate_noise, has_even_rows, median, median_deviate, noise_reach
 
    !> Fewest rows of an event
    integer, parameter :: min_rows = 5
@@ -20,6 +22,22 @@ module camroller_lift_table
    real(wp), parameter :: turn_tolerance = 1.0e-6_wp
    !> Step between two rows, over the larger of the steps beside it, that counts as missing rows [-]
    real(wp), parameter :: gap_ratio = 3.5_wp
+   !> Farthest that noise goes from the lift, over its root mean square; noise cut at zero seems smaller than it is by a third [-]
+   real(wp), parameter :: noise_reach = 6.0_wp
+   !> Longest way of the cam in which a lift within the noise may still be a ramp's [rad]
+   real(wp), parameter :: longest_ramp = 10.0_wp*degree
+   !> Rows of which the mean is taken
+   integer, parameter :: few = 5
+   !> Lift that is no noise of any table, over the largest lift [-]
+   real(wp), parameter :: no_noise = 0.01_wp
+   !> Fewest rows of which the noise is known
+   integer, parameter :: fewest_noisy = 24
+   !> Largest step over the smallest there [-]
+   real(wp), parameter :: most_uneven = 1.01_wp
+   !> Order of the differences
+   integer, parameter :: order = 6
+   !> Sum of their squared coefficients; median of the size of a normal deviate [-]
+   real(wp), parameter :: squares = 924.0_wp, median_deviate = 0.6745_wp
 
 contains
 
@@ -52,7 +70,7 @@ contains
       is_periodic = .false.
       call check_lift_table(angle, lift, smoothing, error)
       if (allocated(error)) return
-      call cut_rest(lift, low, high)
+      call find_event(angle, lift, smoothing, low, high)
       if (high - low + 1 < min_rows) then
          call raise(error, kind_deck, "lift table has too few rows with lift")
          return
@@ -65,7 +83,7 @@ contains
       if (is_periodic) then
          call new_periodic_spline(table, angle(low:high), lift(low:high), smoothing, error)
       else
-         call check_ends(lift(low), lift(high), smoothing, error)
+         call check_ends(lift, low, high, smoothing, error)
          if (allocated(error)) return
          call new_clamped_spline(table, angle(low:high), [0.0_wp, lift(low + 1:high - 1), 0.0_wp], &
             [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], smoothing, error)
@@ -99,7 +117,7 @@ contains
          call raise(error, kind_deck, "smoothing of the lift table must not be negative")
       else if (angle(n) - angle(1) > two_pi + turn_tolerance) then
          call raise(error, kind_deck, "lift table covers more than one turn of the cam")
-      else if (any(lift < -smoothing)) then
+      else if (any(lift < -noise_reach*smoothing)) then
          call raise(error, kind_deck, "lift table has a negative lift")
       end if
    end subroutine check_lift_table
@@ -124,45 +142,126 @@ contains
       end do
    end subroutine check_gaps
 
-   !> First and last row of the event: the last zero before it and the first zero after it, where there are any.
-   pure subroutine cut_rest(lift, low, high)
+   !> First and last row of the event: the last zero before it and the first zero after it, where there are any. With noise on the
+   !> base circle, rows within it are zero.
+   pure subroutine find_event(angle, lift, smoothing, low, high)
+      !> Cam angle, increasing [rad]
+      real(wp), intent(in) :: angle(:)
+      !> Lift, somewhere above zero [m]
+      real(wp), intent(in) :: lift(:)
+      !> Root mean square distance to the table [m]
+      real(wp), intent(in) :: smoothing
+      !> First and last row
+      integer, intent(out) :: low, high
+
+      ! Root mean square of what may be noise [m]
+      real(wp) :: noise
+      logical :: is_known
+
+      call estimate_noise(angle, lift, noise, is_known)
+      noise = max(noise, smoothing)
+      low = start_of_event(angle, lift, noise)
+      high = size(lift) + 1 - start_of_event(angle(size(lift):1:-1), lift(size(lift):1:-1), noise)
+   end subroutine find_event
+
+   !> Row at which the event starts: the last zero before it, where there is any. Where lifts above zero reach so far out that no
+   !> ramp does, they are noise on the base circle; then it is the first row, from one that is beyond the noise on down, that is
+   !> within it and has rows before it whose mean is: farther out, a smoothed curve would go below zero and press on the seat.
+   pure function start_of_event(angle, lift, noise) result(row)
+      !> Cam angle in the order of the search [rad]
+      real(wp), intent(in) :: angle(:)
+      !> Lift in the order of the search [m]
+      real(wp), intent(in) :: lift(:)
+      !> Root mean square of the noise [m]
+      real(wp), intent(in) :: noise
+      !> The row
+      integer :: row
+
+      integer :: outermost
+
+      outermost = max(1, findloc(lift > 0.0_wp, .true., dim=1) - 1)
+      row = max(1, findloc(lift > min(noise_reach*noise, no_noise*maxval(lift)), .true., dim=1))
+      do while (row > outermost)
+         associate (before => lift(max(1, row - few):row - 1))
+            if (lift(row) <= noise .and. sum(before) <= 0.5_wp*noise*size(before)) exit
+         end associate
+         row = row - 1
+      end do
+      if (abs(angle(row) - angle(outermost)) <= longest_ramp) row = outermost
+   end function start_of_event
+
+   !> Refuse an event that does not start and end at zero lift, where the table has no rows beyond it.
+   subroutine check_ends(lift, low, high, smoothing, error)
       !> Lift [m]
       real(wp), intent(in) :: lift(:)
-      !> First row
-      integer, intent(out) :: low
-      !> Last row
-      integer, intent(out) :: high
-
-      low = 1
-      do while (low < size(lift))
-         if (lift(low + 1) > 0.0_wp) exit
-         low = low + 1
-      end do
-      if (lift(1) > 0.0_wp) low = 1
-      high = size(lift)
-      do while (high > low)
-         if (lift(high - 1) > 0.0_wp) exit
-         high = high - 1
-      end do
-      if (lift(size(lift)) > 0.0_wp) high = size(lift)
-   end subroutine cut_rest
-
-   !> Refuse an event that does not start and end at zero lift.
-   subroutine check_ends(first_lift, last_lift, smoothing, error)
-      !> Lift at the start [m]
-      real(wp), intent(in) :: first_lift
-      !> Lift at the end [m]
-      real(wp), intent(in) :: last_lift
+      !> First and last row of the event
+      integer, intent(in) :: low, high
       !> Root mean square distance to the table [m]
       real(wp), intent(in) :: smoothing
       !> What is wrong
       type(error_t), allocatable, intent(out) :: error
 
-      if (abs(first_lift) > smoothing) then
+      if (low == 1 .and. abs(lift(low)) > noise_reach*smoothing) then
          call raise(error, kind_deck, "lift table does not start at zero lift")
-      else if (abs(last_lift) > smoothing) then
+      else if (high == size(lift) .and. abs(lift(high)) > noise_reach*smoothing) then
          call raise(error, kind_deck, "lift table does not end at zero lift")
       end if
    end subroutine check_ends
+
+   !> Estimate the noise of a table.
+   pure subroutine estimate_noise(angle, lift, noise, is_known)
+      !> Cam angle, increasing [rad]
+      real(wp), intent(in) :: angle(:)
+      !> Lift [m]
+      real(wp), intent(in) :: lift(:)
+      !> Its root mean square; 0 where it is not known [m]
+      real(wp), intent(out) :: noise
+      !> Is it known? Not for tables of few rows or of uneven steps
+      logical, intent(out) :: is_known
+
+      real(wp), allocatable :: differences(:) ! [m]
+      integer :: i, n
+
+      noise = 0.0_wp
+      n = size(lift)
+      is_known = has_even_rows(angle)
+      if (.not. is_known) return
+      differences = lift
+      do i = 1, order
+         differences = differences(2:) - differences(:size(differences) - 1)
+      end do
+      noise = median(abs(differences))/(median_deviate*sqrt(squares))
+   end subroutine estimate_noise
+
+   !> Are there enough rows, at even steps, for differences to tell noise from lift?
+   pure function has_even_rows(angle) result(verdict)
+      !> Cam angle, increasing [any]
+      real(wp), intent(in) :: angle(:)
+      !> Are there?
+      logical :: verdict
+
+      verdict = size(angle) >= fewest_noisy
+      if (.not. verdict) return
+      associate (steps => angle(2:) - angle(:size(angle) - 1))
+         verdict = maxval(steps) <= most_uneven*minval(steps)
+      end associate
+   end function has_even_rows
+
+   !> Median of some numbers.
+   pure function median(numbers)
+      !> The numbers [any]
+      real(wp), intent(in) :: numbers(:)
+      !> Their median [any]
+      real(wp) :: median
+
+      integer :: i, rank, below
+
+      median = 0.0_wp
+      rank = (size(numbers) + 1)/2
+      do i = 1, size(numbers)
+         below = count(numbers < numbers(i))
+         if (below < rank .and. below + count(abs(numbers - numbers(i)) <= 0.0_wp) >= rank) median = numbers(i)
+      end do
+   end function median
 
 end module camroller_lift_table

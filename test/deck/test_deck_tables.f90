@@ -31,6 +31,7 @@ contains
       testsuite = [ &
          new_unittest("a lift table arrives in SI, from full lift", lift_in_si), &
          new_unittest("rows of zero lift outside of the event are left out", dwell_is_left_out), &
+         new_unittest("noise on the base circle is taken with smoothing, rounding below zero always", noise_is_taken), &
          new_unittest("a pressure table is turned to begin half a turn before full lift", pressure_is_turned), &
          new_unittest("a pressure table covers one turn and ends as it begins", pressure_mistakes), &
          new_unittest("mistakes in a table are told with file and line", table_mistakes), &
@@ -70,6 +71,22 @@ contains
       if (allocated(error)) return
       call check(error, size(case%lift%table_angle), 11)
    end subroutine dwell_is_left_out
+
+   subroutine noise_is_taken(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: noisy = "110 0.004"//n//"120 -0.008"//n//first_rows//last_rows//"240 0.005"
+      type(case_t) :: case
+
+      call lift_case(error, noisy, "smoothing_um = 3", case)
+      if (allocated(error)) return
+      call expect(error, "120 0.004"//n//first_rows//last_rows, ":1: the lift must start at zero; where rows on the base "// &
+         & "circle hold noise, set them to 0, or give 'smoothing_um' of &lift")
+      if (allocated(error)) return
+      call lift_case(error, "120 -5e-15"//n//first_rows//last_rows//"240 -5e-15", "", case)
+      if (allocated(error)) return
+      call check(error, all(case%lift%table_lift >= 0.0_wp), "lift below zero")
+   end subroutine noise_is_taken
 
    subroutine pressure_is_turned(error)
       type(error_type), allocatable, intent(out) :: error
@@ -117,7 +134,8 @@ contains
          rows = rows//trim(row)//n
       end do
       call expect_pressure(error, rows//"360 10"//n, path//":13: the pressure must end as it begins, with 0")
-      call expect_pressure(error, rows//"360 0"//n//"390 30"//n, path//":14: the table must cover one turn")
+      call expect_pressure(error, rows//"360 0"//n//"390 30"//n, path//":14: the table must cover one turn of the camshaft, "// &
+         & "360 degrees, not 390; is the angle that of the crankshaft?")
       call expect_pressure(error, rows(:index(rows, "270") - 1), path//":9: the table must cover one turn")
       call expect_pressure(error, rows, "")
    end subroutine pressure_mistakes

@@ -30,6 +30,7 @@ contains
          new_unittest("stops are where the third derivative jumps", test_stops), &
          new_unittest("a fine table gives the law it was made from", test_table), &
          new_unittest("rows at rest change nothing", test_rest), &
+         new_unittest("noise about zero at rest is no lift", test_noisy_rest), &
          new_unittest("a table of a full turn repeats itself", test_periodic_table), &
          new_unittest("a table that does not lie about zero is wrapped", test_shifted_table), &
          new_unittest("impossible laws are refused in words", test_refusals), &
@@ -298,6 +299,7 @@ contains
       allocate (lift%table_lift(361))
       call tabulate(lift%table_angle, lift%table_lift)
       lift%table_lift([111, 251]) = 0.0_wp
+      lift%smoothing = 2.0e-6_wp
       call new_lift_law(long, lift, failure)
       call check(error, allocated(failure), .false., "refused")
       if (allocated(error)) return
@@ -311,6 +313,30 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_rest
+
+   !> Of either sign, and cut at zero.
+   subroutine test_noisy_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(error_t), allocatable :: failure
+      type(lift_law_t) :: law
+      type(lift_t) :: lift
+      integer :: i
+
+      lift%law = "table"
+      lift%smoothing = 2.0e-6_wp
+      lift%table_angle = [(real(i, wp)*degree, i=-180, 179)]
+      allocate (lift%table_lift(360))
+      call tabulate(lift%table_angle, lift%table_lift)
+      lift%table_lift = lift%table_lift + lift%smoothing*sqrt(2.0_wp)*sin([(real(i, wp)**2, i=1, 360)])
+      do i = 1, 2
+         call new_lift_law(law, lift, failure)
+         call check(error, allocated(failure), .false., "refused")
+         if (allocated(error)) return
+         call check(error, maxval(abs(abs(stop_angles(law)) - opening)), 0.0_wp, thr=15.0_wp*degree, message="event")
+         if (allocated(error)) return
+         lift%table_lift = max(0.0_wp, lift%table_lift)
+      end do
+   end subroutine test_noisy_rest
 
    subroutine test_periodic_table(error)
       type(error_type), allocatable, intent(out) :: error
