@@ -1,17 +1,20 @@
 !> Load along the roller for a case: the table of slices over the radii of its cam.
 !>
-!> In: roller profile, linkage, lift. Out: the table; one that is there stays where it would be made of the same numbers again.
+!> In: roller profile, linkage, lift. Out: the table; one that is there stays where it would be made of the same numbers again;
+!> the length that carries the standing train's load at full lift.
 module camroller_axial_setup
    use camroller_kinds, only : wp, degree
-   use camroller_axial_table, only : axial_part_t, is_same_axial_part, new_axial_part
+   use camroller_axial_table, only : axial_part_t, effective_lengths, is_same_axial_part, new_axial_part
+   use camroller_dynamics, only : evaluate_moments, moments_t, train_t
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_kinematics, only : linkage_t, position_t, evaluate_position
    use camroller_lift, only : lift_law_t, evaluate_lift
    use camroller_roller_profile, only : coupling_half_space, coupling_names, roller_profile_t
+   use camroller_traction, only : line_lengths_t
    implicit none
    private
 
-   public :: set_axial, coupled_width
+   public :: set_axial, coupled_width, nose_length
 
    !> Largest equivalent radius over the length of the roller: beyond it the load is spread as there [-]
    real(wp), parameter :: largest_radius = 20.0_wp
@@ -79,5 +82,39 @@ contains
       allocate (axial)
       call new_axial_part(axial, profile, length, modulus, radii, error)
    end subroutine set_axial
+
+   !> Length of the line contact of cam and roller at full lift under the load of the standing train, its largest: all of the
+   !> contact, or the effective length of a roller with a profile.
+   function nose_length(width, linkage, lift_law, train, axial) result(length)
+      !> Length of the contact [m]
+      real(wp), intent(in) :: width
+      !> Finger, lift, masses and spring
+      type(linkage_t), intent(in) :: linkage
+      type(lift_law_t), intent(in) :: lift_law
+      type(train_t), intent(in) :: train
+      !> The table, where the roller has a profile
+      type(axial_part_t), intent(in), optional :: axial
+      !> The length [m]
+      real(wp) :: length
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Lengths, and derivatives of their logarithms [-]
+      type(line_lengths_t) :: lengths, slopes(2)
+      ! Lift and its first three derivatives [m/rad^n], load [N]
+      real(wp) :: lift(0:3), load
+      integer :: status
+
+      length = width
+      if (.not. present(axial)) return
+      call evaluate_lift(lift_law, 0.0_wp, lift)
+      call evaluate_position(linkage, lift, position, status)
+      if (status /= 0) return
+      call evaluate_moments(train, position, 0.0_wp, 0.0_wp, moments)
+      load = moments%total/position%normal_arm
+      if (.not. min(load, position%equivalent_radius) > 0.0_wp) return
+      call effective_lengths(axial, load, position%equivalent_radius, lengths, slopes(1), slopes(2))
+      length = lengths%mean
+   end function nose_length
 
 end module camroller_axial_setup

@@ -62,7 +62,7 @@ contains
    end subroutine check_ball
 
    !> Constants of a case's flexible train.
-   subroutine set_flexible(flexible, case, lift_law, linkage, train, pivot, modulus, load, error)
+   subroutine set_flexible(flexible, case, lift_law, linkage, train, pivot, modulus, length, load, error)
       !> The train
       type(flexible_t), intent(out) :: flexible
       !> The case, with a flexible train
@@ -74,8 +74,8 @@ contains
       type(train_t), intent(in) :: train
       !> Its joint between finger and pivot; without it there is an error
       type(pivot_t), intent(in), optional :: pivot
-      !> Equivalent modulus of cam and roller [Pa], base circle load [N]
-      real(wp), intent(in) :: modulus, load
+      !> Equivalent modulus of cam and roller [Pa], length of their contact that gives way [m], base circle load [N]
+      real(wp), intent(in) :: modulus, length, load
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
@@ -87,7 +87,7 @@ contains
       end if
       call check_contacts(case, highest_lift(lift_law), error)
       if (allocated(error)) return
-      call set_contacts(flexible, case%dynamics, modulus, case%mechanism%contact_width)
+      call set_contacts(flexible, case%dynamics, modulus, length)
       flexible%finger_mass = pivot%mass
       flexible%finger_centre = pivot%centre
       flexible%axis = exp(cmplx(0.0_wp, -pivot%axis_angle, wp))

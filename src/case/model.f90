@@ -7,7 +7,7 @@ module camroller_model
    use camroller_engine, only : cam_turns
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : find_name
-   use camroller_axial_setup, only : set_axial
+   use camroller_axial_setup, only : nose_length, set_axial
    use camroller_axial_table, only : axial_part_t
    use camroller_accuracy, only : check_numerics, is_within, above_zero
    use camroller_cam_surface, only : cam_surface_t
@@ -486,6 +486,7 @@ contains
       if (allocated(case%dynamics)) then
          allocate (model%flexible)
          call set_flexible(model%flexible, case, model%lift_law, model%linkage, model%train, model%pivot, model%modulus, &
+            & nose_length(model%contact_width, model%linkage, model%lift_law, model%train, model%axial), &
             & model%base_circle_load, error)
          if (.not. allocated(error) .and. allocated(model%joints)) call check_ball(model%flexible, model%train, &
             & model%joints%pivot, error)

@@ -15,6 +15,7 @@ module camroller_effect_train
    use camroller_joints, only : has_curves
    use camroller_kinematics, only : position_t
    use camroller_lash_adjuster, only : chamber_volume, relative_volume
+   use camroller_lift, only : resolving_angles
    use camroller_model, only : model_t
    use camroller_pivot, only : pivot_force
    use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
@@ -26,8 +27,6 @@ module camroller_effect_train
 
    public :: train_load_t, train_change_t, estimate_train, compare_trains
 
-   !> Angles at which a train is estimated
-   integer, parameter :: fine = 720
    !> Smallest load over the largest one with the valve open, below which contact may be lost [-]
    real(wp), parameter :: smallest_load = 1.0e-2_wp
 
@@ -35,9 +34,9 @@ module camroller_effect_train
    type :: train_load_t
       !> Why nothing can be said; not allocated where something can
       character(len=:), allocatable :: trouble
-      !> Load and amplitude of the vibration about its mean course [N]; way of the roller off the rigid train over its distance
-      !> from the cam's centre [-]; arm of the load about the pivot [m]
-      real(wp), dimension(fine) :: load = 0.0_wp, vibration = 0.0_wp, shift = 0.0_wp, arm = 0.0_wp
+      !> At even angles: load and amplitude of the vibration about its mean course [N]; way of the roller off the rigid train over
+      !> its distance from the cam's centre [-]; arm of the load about the pivot [m]
+      real(wp), dimension(:), allocatable :: load, vibration, shift, arm
       !> Mean torque of the losses by vibration; of seat, spring, leak and check valve together [N m]
       real(wp) :: vibration_loss = 0.0_wp, other_loss = 0.0_wp
       !> Train frequency [Hz], largest force of the spring's modes [N], deepest place of the plunger below that at rest [m]
@@ -82,11 +81,14 @@ contains
       type(position_t) :: position
       type(outlook_t) :: outlook
       ! Lift of the valve [m], acceleration of the rigid lift [m/s^2], force on the adjuster over that at rest [-]; gas force [N]
-      real(wp) :: lift(fine), acceleration(fine), press_ratio(fine), force
+      real(wp), dimension(resolving_angles(model%lift_law)) :: lift, acceleration, press_ratio
+      real(wp) :: force
       integer :: i, status
 
-      do i = 1, fine
-         call evaluate_loading(model, angle_of(i), position, force, moments, status)
+      allocate (train%load(size(lift)), train%vibration(size(lift)), train%shift(size(lift)), train%arm(size(lift)), &
+         & source=0.0_wp)
+      do i = 1, size(lift)
+         call evaluate_loading(model, angle_of(i, size(lift)), position, force, moments, status)
          if (status /= 0) then
             train%trouble = "the finger does not reach the lift"
             return
@@ -127,9 +129,9 @@ contains
    end subroutine estimate_train
 
    !> Cam angle of a point.
-   elemental function angle_of(point) result(angle)
-      !> Its number
-      integer, intent(in) :: point
+   elemental function angle_of(point, fine) result(angle)
+      !> Its number, number of points
+      integer, intent(in) :: point, fine
       !> From full lift [rad]
       real(wp) :: angle
 
@@ -145,9 +147,9 @@ contains
       !> Gets load, shift, sink, losses
       type(train_load_t), intent(inout) :: train
       !> Lift of the valve; in: of the rigid train [m]
-      real(wp), intent(inout) :: lift(fine)
+      real(wp), intent(inout) :: lift(:)
       !> Force on the adjuster over that at rest; zero without one [-]
-      real(wp), intent(out) :: press_ratio(fine)
+      real(wp), intent(out) :: press_ratio(:)
 
       type(rest_t) :: rest
       type(balance_t) :: balance
@@ -162,7 +164,7 @@ contains
          train%trouble = error%message
          return
       end if
-      step = two_pi/(fine*model%speed)
+      step = two_pi/(size(lift)*model%speed)
       seat = 0.0_wp
       approach = 0.0_wp
       leak = 0.0_wp
@@ -175,8 +177,8 @@ contains
       end if
       before = [model%base_circle_load, rest%tip_force]
       lift_before = 0.0_wp
-      do i = 1, fine
-         call start_balance(model, angle_of(i), balance)
+      do i = 1, size(lift)
+         call start_balance(model, angle_of(i, size(lift)), balance)
          rigid = lift(i)
          call find_balance(model, rest, balance, lift(i), train%trouble)
          if (allocated(train%trouble)) return
@@ -353,22 +355,22 @@ contains
       !> Its modes
       type(outlook_t), intent(in) :: outlook
       !> Lift of the valve [m]
-      real(wp), intent(in) :: lift(fine)
+      real(wp), intent(in) :: lift(:)
       !> In: load of the bent train; out: with its vibration
       type(train_load_t), intent(inout) :: train
 
       ! Load that vibrates and its rate [N], [N/s], rate of the load that drives it [N/s], amplitude [N]; time of a step [s]
-      real(wp), dimension(fine) :: load, rate, drive, amplitude
+      real(wp), dimension(size(lift)) :: load, rate, drive, amplitude
       real(wp) :: step
 
-      step = two_pi/(fine*model%speed)
+      step = two_pi/(size(lift)*model%speed)
       associate (pulse => outlook%frequencies(1), driving => train%load)
          call follow_oscillator(pulse**2*driving, pulse, outlook%damping_ratio, step, load, rate)
          drive = (cshift(driving, 1) - driving)/step
          amplitude = sqrt((load - driving)**2 + ((rate - drive)/pulse)**2)
          ! The closed valve rests on its seat, and its mass with it
          where (lift <= 0.0_wp) amplitude = min(amplitude, driving)
-         train%vibration_loss = outlook%damping_ratio*pulse**3*sum(amplitude**2)/(fine*outlook%load_shape**2*model%speed) &
+         train%vibration_loss = outlook%damping_ratio*pulse**3*sum(amplitude**2)/(size(lift)*outlook%load_shape**2*model%speed) &
             & + 0.5_wp*model%train%valve_mass*(pulse*outlook%lift_shape/outlook%load_shape)**2 &
             & *sum(amplitude**2, mask=lift*cshift(lift, 1) < 0.0_wp)/two_pi
          where (lift > 0.0_wp) driving = load
@@ -383,24 +385,25 @@ contains
       !> Its modes
       type(outlook_t), intent(in) :: outlook
       !> Acceleration of the rigid lift [m/s^2], lift of the valve [m]
-      real(wp), intent(in) :: acceleration(fine), lift(fine)
+      real(wp), intent(in) :: acceleration(:), lift(:)
       !> Gets more vibration and losses
       type(train_load_t), intent(inout) :: train
 
       ! Amplitude of a mode at the angles [m], its rate [m/s], what drives it [m/s^2], force of all modes on the valve [N]
-      real(wp), dimension(fine) :: mode, rate, drive, force
+      real(wp), dimension(size(lift)) :: mode, rate, drive, force
       ! Frequency of the mode over the train's [-], force on the valve, as the train amplifies it, over what drives the mode [kg];
       ! time of a step [s]
       real(wp) :: ratio, factor, step
       integer :: n
 
-      step = two_pi/(fine*model%speed)
+      step = two_pi/(size(lift)*model%speed)
       force = 0.0_wp
       associate (modes => model%flexible%modes)
          do n = 1, modes%count
             drive = -2.0_wp*modes%share(n)*acceleration
             call follow_oscillator(drive, modes%frequency(n), modes%damping_ratio, step, mode, rate)
-            train%other_loss = train%other_loss + modes%mass*modes%damping_ratio*modes%frequency(n)*sum(rate**2)/fine/model%speed
+            train%other_loss = train%other_loss + modes%mass*modes%damping_ratio*modes%frequency(n)*sum(rate**2)/size(lift) &
+               & /model%speed
             ratio = modes%frequency(n)/outlook%frequencies(1)
             factor = modes%mass*abs(modes%share(n))/sqrt((1.0_wp - ratio**2)**2 + (2.0_wp*outlook%damping_ratio*ratio)**2)
             force = force + factor*sqrt((modes%frequency(n)**2*mode - drive)**2 + (modes%frequency(n)*rate)**2)
@@ -414,7 +417,7 @@ contains
    !> Difference of two trains. Vibrations of unlike frequency do not cancel; in the mean over what an angle stands for they change
    !> what follows the load by their square.
    pure subroutine compare_trains(train, other, grid, change)
-      !> The trains
+      !> The trains, of the same lift
       type(train_load_t), intent(in) :: train, other
       !> Angles of the survey
       type(grid_t), intent(in) :: grid
@@ -423,11 +426,12 @@ contains
 
       ! Differences of the loads, of their mean effect beside, of their peaks [N]; half the angle that one of the survey stands for
       ! and distance from it [rad]
-      real(wp), dimension(fine) :: difference, beside, peak
+      real(wp), dimension(size(train%load)) :: difference, beside, peak
       real(wp) :: half
-      logical :: belongs(fine)
-      integer :: i, k, nearest
+      logical :: belongs(size(train%load))
+      integer :: i, k, nearest, fine
 
+      fine = size(train%load)
       difference = train%load - other%load
       beside = (train%vibration**2 + other%vibration**2)/max(train%load, tiny(1.0_wp)) &
          & + train%load*abs(train%shift - other%shift)
@@ -435,7 +439,7 @@ contains
       change%share = 0.0_wp
       do i = 1, points
          half = pi*grid%weights(i)
-         belongs = [(abs(modulo(angle_of(k) - grid%angles(i) + pi, two_pi) - pi) <= half, k=1, fine)]
+         belongs = [(abs(modulo(angle_of(k, fine) - grid%angles(i) + pi, two_pi) - pi) <= half, k=1, fine)]
          nearest = modulo(nint((grid%angles(i) + pi)/two_pi*fine), fine) + 1
          belongs(nearest) = .true.
          associate (mean => (abs(sum(difference, mask=belongs)) + sum(beside, mask=belongs))/count(belongs))

@@ -105,7 +105,7 @@ contains
       frequency = n*pi*sqrt(stiffness/mass)
    end function mode_frequency
 
-   !> Mass that the valve's own equation has, `m_v + m_s/3 - sum 2 m_s/(n pi)^2`.
+   !> Mass that the valve's own equation has, `m_v - sum 2 m_s/(n pi)^2`, with a third of the spring in m_v.
    pure function effective_mass(modes, valve_mass) result(mass)
       !> The modes
       type(spring_modes_t), intent(in) :: modes

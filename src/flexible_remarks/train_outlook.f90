@@ -7,6 +7,7 @@
 !> residual vibration behind a cam; Wahl, Mechanical Springs (1963), for surge.
 module camroller_train_outlook
    use camroller_kinds, only : wp, pi, two_pi
+   use camroller_axial_setup, only : nose_length
    use camroller_contact_compliance, only : series_approach, series_load
    use camroller_dynamics, only : evaluate_moments, moments_t
    use camroller_error, only : error_t
@@ -15,7 +16,7 @@ module camroller_train_outlook
    use camroller_kinematics, only : position_t
    use camroller_lapack, only : dsygv
    use camroller_lash_adjuster, only : bulk_modulus, chamber_volume, relative_volume
-   use camroller_lift, only : is_at_rest
+   use camroller_lift, only : is_at_rest, resolving_angles
    use camroller_model, only : evaluate_geometry, model_t
    use camroller_state, only : evaluate_loading
    use camroller_torque, only : normal_direction
@@ -46,8 +47,6 @@ module camroller_train_outlook
    !> Damping ratios between which an oscillator is followed: without damping its response at resonance has no bound, and where it
    !> does not vibrate it creeps no slower than at the limit; a spring of one wire has 0.003 [-]
    real(wp), parameter :: least_ratio = 1.0e-3_wp, most_ratio = 0.999_wp
-   !> Angles at which load and lift are taken
-   integer, parameter :: points = 720
    !> Places of finger, valve and plunger in the linear train
    integer, parameter :: finger = 1, valve = 2, plunger = 3
 
@@ -62,26 +61,30 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Load of the rigid train [N] and second derivative of its lift over time [m/s^2], at even angles; gas force [N]
-      real(wp) :: load(points), lift(points), force
-      integer :: i, n, status
+      ! At even angles: load of the rigid train [N], second derivative of its lift over time [m/s^2], gas force where the valve is
+      ! closed [N]
+      real(wp), allocatable :: load(:), lift(:), gas(:)
+      ! Cam angle [rad], gas force, largest load of the rigid train [N]
+      real(wp) :: angle, force, largest
+      integer :: i, n, points, status
       ! Does the valve rest here, and did it at the angle before? Without gas force nothing changes then
       logical :: rests, rested
-      ! Gas force at the angles where the valve is closed [N], the largest load of the rigid train [N]
-      real(wp) :: gas(points), largest
 
       allocate (outlook%frequencies(0), outlook%surge(0))
       outlook%is_known = allocated(model%pivot) .and. model%train%valve_mass > 0.0_wp
       if (.not. outlook%is_known) return
       call find_modes(model, outlook)
       if (.not. minval(outlook%frequencies) > 0.0_wp) return
+      points = resolving_angles(model%lift_law)
+      allocate (load(points), lift(points), gas(points))
       rests = .false.
       force = 0.0_wp
       do i = 1, points
          rested = rests
-         rests = is_at_rest(model%lift_law, two_pi*real(i - 1, wp)/points - pi)
-         if (.not. (rests .and. rested) .or. allocated(model%gas)) call evaluate_loading(model, two_pi*real(i - 1, wp)/points &
-            & - pi, position, force, moments, status)
+         angle = two_pi*real(i - 1, wp)/points - pi
+         rests = is_at_rest(model%lift_law, angle)
+         if (.not. (rests .and. rested) .or. allocated(model%gas)) call evaluate_loading(model, angle, position, force, moments, &
+            & status)
          if (status /= 0) return
          load(i) = moments%total/position%normal_arm
          lift(i) = model%speed**2*position%lift_curvature
@@ -190,7 +193,8 @@ contains
          flexible = model%flexible
          return
       end if
-      call set_contacts(flexible, dynamics_t(), model%modulus, model%contact_width)
+      call set_contacts(flexible, dynamics_t(), model%modulus, nose_length(model%contact_width, model%linkage, model%lift_law, &
+         & model%train, model%axial))
       flexible%axis = exp(cmplx(0.0_wp, -model%pivot%axis_angle, wp))
       flexible%tilt_cosine = model%pivot%tilt_cosine
    end function train_of

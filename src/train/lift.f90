@@ -11,12 +11,12 @@ module camroller_lift
    use camroller_number_text, only : integer_text
    use camroller_spline, only : spline_t, evaluate_spline
    use camroller_lift_segments, only : evaluate_segments, new_segments, segments_t
-   use camroller_lift_table, only : new_table_event
+   use camroller_lift_table, only : least_step, new_table_event
    implicit none
    private
 
    public :: lift_t, lift_law_t, lift_law_names
-   public :: new_lift_law, evaluate_lift, is_at_rest, is_tabulated, stop_angles, highest_lift, largest_exponent
+   public :: new_lift_law, evaluate_lift, is_at_rest, is_tabulated, stop_angles, highest_lift, resolving_angles, largest_exponent
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
@@ -31,6 +31,8 @@ module camroller_lift
    integer, parameter :: largest_exponent = 200
    !> Exponents of `polydyne` beside the constant and the square
    integer, parameter :: n_polydyne = 4
+   !> Even angles of a turn for a lift without close rows, fewest of them from a close row to the next
+   integer, parameter :: usual_angles = 720, angles_per_row = 4
    !> Difference of the half angles that counts as none [rad]
    real(wp), parameter :: angle_tolerance = 1.0e-9_wp
 
@@ -71,6 +73,8 @@ module camroller_lift
       integer :: exponents(0:n_polydyne + 1) = 0
       !> Coefficients of these powers [-]
       real(wp) :: coefficients(0:n_polydyne + 1) = 0.0_wp
+      !> Distance of the closest rows of a table; huge without one [rad]
+      real(wp) :: row_step = huge(1.0_wp)
       !> The table, or the segments
       type(spline_t) :: table
       type(segments_t) :: segments
@@ -175,6 +179,21 @@ contains
 
       lift = law%max_lift
    end function highest_lift
+
+   !> How many even angles of a turn show the curvature of a lift: with rows of a table closer than a degree, whose noise is in it
+   !> from row to row, four for each.
+   pure function resolving_angles(law) result(angles)
+      !> The law
+      type(lift_law_t), intent(in) :: law
+      integer :: angles
+
+      ! Angles from a row to the next, with the usual ones [-]
+      real(wp) :: per_row
+
+      angles = usual_angles
+      per_row = law%row_step*usual_angles/two_pi
+      if (per_row < 2.0_wp - angle_tolerance) angles = usual_angles*ceiling(angles_per_row/per_row - angle_tolerance)
+   end function resolving_angles
 
    !> Is the valve closed, with no lift on either side of the angle but at the ends of the event?
    pure function is_at_rest(law, angle) result(at_rest)
@@ -450,6 +469,7 @@ contains
          law%first, law%last, is_periodic, error)
       if (allocated(error)) return
       law%max_lift = maxval(lift%table_lift)
+      law%row_step = least_step(lift%table_angle, law%first, law%last)
       allocate (law%stops(0))
       if (is_periodic) return
       law%stops = [law%first, law%last]

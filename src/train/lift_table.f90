@@ -14,7 +14,11 @@ module camroller_lift_table
    implicit none
    private
 
+<<<<<<< HEAD
    public :: new_table_event, find_event, estimate_noise, has_even_rows, median, median_deviate, noise_reach
+=======
+   public :: least_step, new_table_event
+>>>>>>> 4708c1c2293598a8cad14805556a5391256bcc5c
 
    !> Fewest rows of an event
    integer, parameter :: min_rows = 5
@@ -92,6 +96,21 @@ contains
       error%kind = kind_deck
       call add_context(error, "lift table")
    end subroutine new_table_event
+
+   !> Smallest step between two rows of an event. A few rows far closer than all others do not count: a quarter of the mean step at
+   !> least.
+   pure function least_step(angle, first, last) result(step)
+      !> Cam angle, increasing; start and end of the event, two of the rows [rad]
+      real(wp), intent(in) :: angle(:), first, last
+      !> The step [rad]
+      real(wp) :: step
+
+      integer :: n
+
+      n = size(angle)
+      step = minval(angle(2:) - angle(:n - 1), mask=angle(:n - 1) >= first .and. angle(2:) <= last)
+      step = max(step, 0.25_wp*(last - first)/count(angle > first .and. angle <= last))
+   end function least_step
 
    !> Refuse a table that is no lift.
    subroutine check_lift_table(angle, lift, smoothing, error)

@@ -1,11 +1,17 @@
 !> Estimates of a train's vibration.
 module test_train_outlook
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_axial_table, only : effective_lengths
    use camroller_case, only : case_t
+   use camroller_dynamics, only : moments_t
    use camroller_kinematics, only : position_t
+   use camroller_lift, only : evaluate_lift, lift_t
    use camroller_model, only : evaluate_geometry, model_t
+   use camroller_roller_profile, only : roller_profile_t
    use camroller_spring_modes, only : new_spring_modes, spring_modes_t, spring_surge_t
+   use camroller_state, only : evaluate_loading
+   use camroller_traction, only : line_lengths_t
    use camroller_train_outlook, only : find_outlook, largest_response, outlook_t
    use reference_cases, only : thesis_case, make_model, set_point
    use flexible_cases, only : add_dynamics
@@ -28,6 +34,9 @@ contains
          new_unittest("load factors of the reference train agree with the reference within one per cent", test_load_factors), &
          new_unittest("surge forced by one harmonic of the lift agrees with the closed form", test_one_harmonic), &
          new_unittest("surge is the sum of the closed responses to the harmonics of the lift", test_surge), &
+         new_unittest("noise of close rows of a lift table is in the estimates as its harmonics are", test_noisy_table), &
+         new_unittest("a crowned roller has the frequency of a flat one as long as the part that carries at full lift", &
+            & test_crowned), &
          new_unittest("a train of unknown mass has no estimate", test_unknown) &
          ]
    end subroutine collect_train_outlook
@@ -211,6 +220,121 @@ contains
       end function angle
 
    end subroutine test_surge
+
+   !> Rows every 0.2 degrees with noise of up to 0.03 um, whose second derivative is of the size of the lift's own: the estimates
+   !> against the sums of the closed responses to harmonics of load and lift. Points every 0.5 degrees take one harmonic for another
+   !> and miss the peaks of the load.
+   subroutine test_noisy_table(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: rows = 701, points = 14400, harmonics = 2400
+      type(case_t) :: the_case
+      type(model_t) :: model
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(outlook_t) :: outlook
+      ! Gas force [N], lift and derivatives [m/rad^n], angles of the rows [rad], lifts there [m]
+      real(wp) :: force, lift(0:3), angles(rows), lifts(rows)
+      ! Load of the rigid train [N], second derivative of its lift over time [m/s^2], both at even angles; their responses [N], [m]
+      real(wp), dimension(points) :: load, curvature, loads, modes
+      ! Load factor of points every 0.5 degrees [-]
+      real(wp) :: coarse
+      integer :: i, status
+
+      the_case = thesis_case()
+      call set_point(the_case, 50.0_wp*pi, 0.01_wp)
+      call add_dynamics(the_case, 1, .false.)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      do i = 1, rows
+         angles(i) = 0.2_wp*degree*(i - 1 - rows/2)
+         call evaluate_lift(model%lift_law, angles(i), lift)
+         lifts(i) = lift(0)*(1.0_wp + 0.03e-6_wp*sin(1.7_wp*i**2)/(lift(0) + 1.0e-6_wp))
+      end do
+      lifts([1, rows]) = 0.0_wp
+      the_case%lift = lift_t(law="table", table_angle=angles, table_lift=lifts)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call find_outlook(model, outlook)
+      do i = 1, points
+         call evaluate_loading(model, two_pi*real(i - 1, wp)/points - pi, position, force, moments, status)
+         load(i) = moments%total/position%normal_arm
+         curvature(i) = model%speed**2*position%lift_curvature
+      end do
+      associate (pulse => outlook%frequencies(1), spring => model%flexible%modes)
+         call respond(pulse**2*load, pulse, outlook%damping_ratio, loads)
+         call respond(2.0_wp*spring%share(1)*curvature, spring%frequency(1), spring%damping_ratio, modes)
+         call check_close(error, outlook%load_factor, maxval(loads)/maxval(load), 1.0e-2_wp, "load factor")
+         if (allocated(error)) return
+         coarse = largest_response(pulse**2*load(::points/720), pulse, outlook%damping_ratio, two_pi/(720*model%speed), &
+            & is_either_side=.false.)/maxval(load(::points/720))
+         call check(error, abs(coarse - outlook%load_factor) > 5.0e-2_wp, "the noise asks for no more than 720 points")
+         if (allocated(error)) return
+         call check_close(error, outlook%surge(1), spring%stiffness*pi*maxval(abs(modes)), 1.0e-2_wp, "surge")
+      end associate
+
+   contains
+
+      !> Periodic motion of an oscillator, harmonic by harmonic.
+      subroutine respond(driving, pulse, damping_ratio, motion)
+         !> What drives it [any/s^2]; its frequency [rad/s], damping ratio [-]
+         real(wp), intent(in) :: driving(:), pulse, damping_ratio
+         !> Its displacement [any]
+         real(wp), intent(out) :: motion(:)
+         ! exp(i phi) [-]; harmonic of the motion [any]
+         complex(wp) :: turn(0:points - 1), harmonic
+         integer :: h, k
+
+         turn = [(exp(cmplx(0.0_wp, two_pi*real(k, wp)/points, wp)), k=0, points - 1)]
+         motion = sum(driving)/points/pulse**2
+         do h = 1, harmonics
+            harmonic = 2.0_wp*sum([(driving(k + 1)*conjg(turn(modulo(h*k, points))), k=0, points - 1)])/points
+            associate (drive => h*model%speed)
+               harmonic = harmonic/cmplx(pulse**2 - drive**2, 2.0_wp*damping_ratio*pulse*drive, wp)
+            end associate
+            motion = motion + [(real(harmonic*turn(modulo(h*k, points)), wp), k=0, points - 1)]
+         end do
+      end subroutine respond
+
+   end subroutine test_noisy_table
+
+   !> The contact of a crowned roller is as stiff as that of a flat one with its effective length under the spring's load at full
+   !> lift, in a flexible train and in the estimate for a rigid one.
+   subroutine test_crowned(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t) :: model
+      type(position_t) :: position
+      type(line_lengths_t) :: lengths, slopes(2)
+      type(outlook_t) :: crowned, flat, full
+      ! Load at full lift without speed [N]
+      real(wp) :: load
+      integer :: trial, status
+
+      do trial = 1, 2
+         the_case = thesis_case()
+         if (trial == 1) call add_dynamics(the_case, 5, .false.)
+         call make_model(the_case, model, error)
+         if (allocated(error)) return
+         call find_outlook(model, full)
+         the_case%roller_profile = roller_profile_t(profile="crowned", crown_radius=0.3_wp)
+         call make_model(the_case, model, error)
+         if (allocated(error)) return
+         call find_outlook(model, crowned)
+         call evaluate_geometry(model, 0.0_wp, position, status)
+         load = the_case%spring%stiffness*(position%lift + the_case%spring%precompression)*position%valve_arm/position%normal_arm
+         call effective_lengths(model%axial, load, position%equivalent_radius, lengths, slopes(1), slopes(2))
+         deallocate (the_case%roller_profile)
+         the_case%mechanism%contact_width = lengths%mean
+         call make_model(the_case, model, error)
+         if (allocated(error)) return
+         call find_outlook(model, flat)
+         call check_close(error, crowned%frequencies(1), flat%frequencies(1), 1.0e-12_wp, "frequency")
+         if (allocated(error)) return
+         ! Far from all of the 13.7 mm carries
+         call check(error, crowned%frequencies(1) < 0.92_wp*full%frequencies(1), "as stiff as all of its length")
+         if (allocated(error)) return
+      end do
+   end subroutine test_crowned
 
    subroutine test_unknown(error)
       type(error_type), allocatable, intent(out) :: error
