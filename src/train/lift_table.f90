@@ -14,11 +14,7 @@ module camroller_lift_table
    implicit none
    private
 
-<<<<<<< HEAD
-   public :: new_table_event, find_event, estimate_noise, has_even_rows, median, median_deviate, noise_reach
-=======
-   public :: least_step, new_table_event
->>>>>>> 4708c1c2293598a8cad14805556a5391256bcc5c
+   public :: new_table_event, find_event, estimate_noise, has_even_rows, least_step, median, median_deviate, noise_reach
 
    !> Fewest rows of an event
    integer, parameter :: min_rows = 5
