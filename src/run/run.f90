@@ -6,7 +6,7 @@ module camroller_run
    use camroller_error, only : error_t, add_context, kind_convergence, cause_unknown
    use camroller_accuracy, only : is_checked, first_numerics, most_refinements, refine_tolerance, resolve_numerics, &
       & second_method, way_out
-   use camroller_run_remarks, only : judge, judge_assumptions, judge_growth, judge_places, judge_wear
+   use camroller_run_remarks, only : judge, judge_assumptions
    use camroller_catalogue, only : list_series
    use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
@@ -22,6 +22,7 @@ module camroller_run
    use camroller_result, only : quantity_t, result_t
    use camroller_flexible_solution, only : train_method
    use camroller_running_in, only : aged_t, add_running_in, run_in
+   use camroller_running_in_remarks, only : judge_running_in
    implicit none
    private
 
@@ -142,9 +143,7 @@ contains
       call run_listed(case, models, with_series, result, error)
       if (.not. allocated(case%running_in) .or. allocated(error)) return
       call add_running_in(case, models, aged, result)
-      call judge_places(case, result, error)
-      if (allocated(case%wear) .and. .not. allocated(error)) call judge_wear(result, error)
-      if (allocated(case%tribofilm)) call judge_growth(result)
+      call judge_running_in(case, result, error)
    end subroutine run_aged
 
    !> Run a case with all its effects.

@@ -1,6 +1,6 @@
 !> Remarks on a result as a whole: an accuracy that was not reached, a tolerance that says nothing of the error, a motion without a
-!> period; a roller that does not turn, slices of it that are too narrow, wear that would change the cam, a rigid train that would
-!> vibrate, slip that is the creep of regularised friction.
+!> period; a roller that does not turn, slices of it that are too narrow, a rigid train that would vibrate, slip that is the creep
+!> of regularised friction.
 !>
 !> In: numerics as given, the result of a case. Out: remarks, or an error where nothing of the result can be right.
 module camroller_run_remarks
@@ -13,32 +13,22 @@ module camroller_run_remarks
    use camroller_case, only : case_t, numerics_t
    use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
-   use camroller_remarks, only : add_remark, creeping_roller, few_places, foreign_speed, deep_wear, &
-      & held_coefficient, idle_roller, loose_tolerance, missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, &
-      & shaken_train, untouched_film
+   use camroller_remarks, only : add_remark, creeping_roller, foreign_speed, held_coefficient, idle_roller, loose_tolerance, &
+      & missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, shaken_train
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
 
-   public :: judge, judge_assumptions, judge_growth, judge_places, judge_wear
+   public :: judge, judge_assumptions, add_named, lobe_count, take_scalar
 
    !> Slip over a turn of the cam beyond which a roller does not roll: those of engines slip by some per cent, and by half on their
    !> base circle alone; one that makes less than a tenth of its turns is a sliding follower [-]
    real(wp), parameter :: idle_slip = 0.9_wp
-   !> Wear over the largest lift of the valve that is none of a surface any more: a hundredth is about the 0.09 mm that
-   !> oils for gasoline engines may let a cam lose in the Sequence IVA test (ASTM D6891, ILSAC GF-5) [-]
-   real(wp), parameter :: deep_part = 0.01_wp
    !> Width of a slice over the largest half width of the contact below which the contact is computed too soft: from there on its
    !> largest pressure is more than one per cent below that of Hertz' ellipse (measured for crowns of 0.1 to 0.5 m) [-]
    real(wp), parameter :: narrowest_slice = 0.8_wp
    !> Part of the slices that this contact allows which a remark advises: with fewer slices it is a little wider [-]
    real(wp), parameter :: advised_part = 0.95_wp
-   !> Smallest film over composite roughness from which on asperities do not touch: the usual limit of full films (Hamrock and
-   !> others 2004, Fundamentals of fluid film lubrication, section 3.5) [-]
-   real(wp), parameter :: parted_ratio = 3.0_wp
-   !> Part of the largest film or depth that may be missed between places, as estimated: a figure of the depth still shows its shape
-   !> then [-]
-   real(wp), parameter :: largest_miss = 0.1_wp
    !> Largest load of a train that vibrates over that of a rigid one from where on the rigid one misleads, since friction goes with
    !> the load: twice what the estimate is off by where it is farthest off, 0.05 at 2500 rev/min (doc/dynamics.md) [-]
    real(wp), parameter :: shaken_factor = 1.1_wp
@@ -250,75 +240,6 @@ contains
             & "of this case", lowest/max(maxval(abs(speeds)), tiny(lowest)))
       end do
    end subroutine judge_speed
-
-   !> Say that a tribofilm grows on surfaces that touch nowhere.
-   subroutine judge_growth(result)
-      !> The result; gets the remark
-      type(result_t), intent(inout) :: result
-
-      integer :: lobe, place
-
-      do lobe = 1, lobe_count(result)
-         place = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"film_ratio")
-         if (place == 0) exit
-         associate (ratio => result%summary_values(place))
-            if (ratio < parted_ratio) cycle
-            call add_named(result, lobe, untouched_film, "the film is all round at least "//number_text(ratio, 3)// &
-               & " times as thick as the surfaces are rough, so that no asperities touch: the tribofilm grows by the shear of "// &
-               & "the oil alone, and its removal_rate_per_s counts all the same", ratio)
-         end associate
-      end do
-   end subroutine judge_growth
-
-   !> Say that depth or film between the places of the cam is not known.
-   subroutine judge_places(case, result, error)
-      !> The case, with hours of running
-      type(case_t), intent(in) :: case
-      !> The result; gets the remark
-      type(result_t), intent(inout) :: result
-      !> Internal error
-      type(error_t), allocatable, intent(out) :: error
-
-      real(wp) :: missed ! [-]
-      integer :: lobe
-
-      do lobe = 1, lobe_count(result)
-         call take_scalar(result, trim(lobe_prefix(lobe))//"estimated_error_between_places", missed, error)
-         if (allocated(error)) return
-         if (missed <= largest_miss) cycle
-         call add_named(result, lobe, few_places, "between the "//integer_text(case%running_in%places)//" places of the cam, "// &
-            & "films or depths that the hours of running leave may be off by up to "// &
-            & number_text(1.0e2_wp*missed, 2)//" % of the largest: they change abruptly from place to place, as where a "// &
-            & "flexible train vibrates; take more running_in.places", missed)
-      end do
-   end subroutine judge_places
-
-   !> Say that so much has worn away that cam or roller would have another shape, which the model keeps.
-   subroutine judge_wear(result, error)
-      !> The result, with what hours of running have worn away; gets the remark
-      type(result_t), intent(inout) :: result
-      !> Internal error
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Lift of the valve, depths worn away from cam and roller [m]
-      real(wp) :: values(3)
-      character(len=:), allocatable :: prefix
-      integer :: lobe
-
-      do lobe = 1, lobe_count(result)
-         prefix = trim(lobe_prefix(lobe))
-         if (find_quantity(result%summary, "max_"//prefix//"cam_wear_depth") == 0) exit
-         call take_scalar(result, "max_"//prefix//"valve_lift", values(1), error)
-         call take_scalar(result, "max_"//prefix//"cam_wear_depth", values(2), error)
-         call take_scalar(result, prefix//"roller_wear_depth", values(3), error)
-         if (allocated(error)) return
-         if (maxval(values(2:)) <= deep_part*values(1)) cycle
-         call add_named(result, lobe, deep_wear, "the hours of running wear up to "//number_text(1.0e3_wp*values(2), 3)// &
-            & " mm away from the cam and "//number_text(1.0e3_wp*values(3), 3)//" mm from the roller, which lift the valve by "// &
-            & number_text(1.0e3_wp*values(1), 3)//" mm; lift and radii are those of new parts here, and loads are not those of "// &
-            & "worn ones; are wear rates, in mm^3/(N m), and hours right?", maxval(values(2:))/values(1))
-      end do
-   end subroutine judge_wear
 
    !> Add a remark, with the name of its lobe shape where there are several.
    subroutine add_named(result, lobe, kind, text, size)

@@ -12,9 +12,10 @@
 !>
 !> Errors of thicknesses are relative to the largest possible one, those of depths to what will be worn in all: until the end, what
 !> is worn so far and what the present rates add to it. A step may have a part of the accuracy that is left: its part of the time
-!> that is left, or a tenth. Steps in which surfaces change fast use more of it than slow ones, and the sum stays below the
-!> accuracy. Growth and removal make differences decay, so that the sum of these errors is an estimate from above of that at the
-!> end. Where rates of wear fall so much that the accuracy is used up, all is integrated again with half of what was foreseen.
+!> that is left, the change of the film in it over its largest thickness, or a hundredth. Only films act back: a change of them has
+!> its part of the accuracy however short it is, jumps of rates have the hundredth, and the sum stays below the accuracy. Growth
+!> and removal make differences decay, so that the sum of these errors is an estimate from above of that at the end. Where rates of
+!> wear fall so much that the accuracy is used up, all is integrated again with half of what was foreseen.
 !>
 !> What the error of the slip does to a rate comes on top: twice the difference of the surfaces by the rates at the end and by those
 !> of a cycle at a tenth of the tolerance, which covers it where that cycle has at most half the error.
@@ -23,8 +24,10 @@ module camroller_running_in
    use camroller_accuracy, only : resolve_numerics
    use camroller_cam_surface, only : cam_surface_t, set_cam
    use camroller_case, only : case_t
-   use camroller_error, only : error_t, add_context, raise, kind_deck, kind_domain
+   use camroller_error, only : error_t, add_context, raise, kind_convergence, kind_deck, kind_domain
    use camroller_model, only : model_t
+   use camroller_number_text, only : number_text
+   use camroller_tribofilm, only : running_in_t
    use camroller_catalogue, only : lobe_prefix
    use camroller_result, only : append_history, append_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, scope_length
    use camroller_surface_change, only : change_rates, differences, expected_scales, missed_between, move_surfaces, plan_t, &
@@ -54,7 +57,11 @@ module camroller_running_in
 
    !> First step over all of the time, and a rest of it that is no step; largest factor from one step to the next, and what a step
    !> is shortened by against the one that would just do; part of the accuracy that is left which any step may have [-]
-   real(wp), parameter :: first_part = 0.02_wp, no_part = 1.0e-10_wp, largest_growth = 4.0_wp, safety = 0.8_wp, fast_part = 0.1_wp
+   real(wp), parameter :: first_part = 0.02_wp, no_part = 1.0e-10_wp, largest_growth = 4.0_wp, safety = 0.8_wp, least_part = 0.01_wp
+   !> Relaxation of a film in a turn from where on surfaces change within it [-]
+   real(wp), parameter :: fast_part = 0.1_wp
+   !> An hour [s]
+   real(wp), parameter :: hour = 3600.0_wp
 
 contains
 
@@ -195,15 +202,15 @@ contains
       type(aged_t), intent(inout) :: aged
       !> Whether errors became as large as they may be, since less is worn than was foreseen
       logical, intent(out) :: is_used_up
-      !> Domain error where surfaces change within a turn, convergence error without a periodic cycle
+      !> Domain error where surfaces change within a turn, convergence error without a periodic cycle or with too short steps
       type(error_t), allocatable, intent(out) :: error
 
       type(surfaces_t) :: middle, next
       type(rates_t) :: at_middle, at_next
       ! Time, length of the step [s]; estimated errors of thickness and depths so far, of a step [m]
       real(wp) :: time, step, mistakes(3), mistake(3)
-      ! Thickness and depths to which errors are relative [m]; error of the step over what it may be [-]
-      real(wp) :: foreseen(3), ratio
+      ! Thickness and depths to which errors are relative [m]; part of the accuracy left that the step may have, error over it [-]
+      real(wp) :: foreseen(3), share, ratio
       logical :: is_last
 
       time = 0.0_wp
@@ -224,7 +231,8 @@ contains
                scales(2:) = 0.5_wp*foreseen(2:)
                return
             end if
-            ratio = relative(mistake, foreseen)/((plan%running%accuracy - aged%error)*max(step/left, fast_part))
+            share = max(step/left, relative([1.0_wp, 0.0_wp, 0.0_wp]*differences(now, next), foreseen), least_part)
+            ratio = relative(mistake, foreseen)/((plan%running%accuracy - aged%error)*share)
          end associate
          if (ratio <= 1.0_wp) then
             call change_rates(plan, model, next, at_next, aged%solved, error)
@@ -238,8 +246,8 @@ contains
             rates = at_next
             if (is_last) exit
          else if (step < two_pi/model%speed) then
-            call raise(error, kind_domain, "surfaces change within a turn of the cam, over which they are taken as constant: "// &
-               & "rates of growth, removal or wear are too large, or running_in.accuracy is too small")
+            call refuse_step(plan%running, time, two_pi/model%speed*maxval(max(rates%decay, at_middle%decay)), &
+               & aged%error, mistake/max(foreseen, tiny(ratio)), error)
             return
          end if
          ! The error of a step goes with the third power of its length
@@ -247,6 +255,33 @@ contains
       end do
       aged%error = relative(mistakes, expected_scales(plan, now, rates, 0.0_wp))
    end subroutine march_until_used_up
+
+   !> Say why there is no step of a turn's length.
+   subroutine refuse_step(running, time, relaxed, used, mistakes, error)
+      !> What was asked for
+      type(running_in_t), intent(in) :: running
+      !> Time of the start of the step [s]
+      real(wp), intent(in) :: time
+      !> Largest part of the way to its balance that a film goes in a turn; accuracy used so far [-]
+      real(wp), intent(in) :: relaxed, used
+      !> Errors of the step: of thicknesses, of depths of the cam and of the roller, relative as the accuracy is [-]
+      real(wp), intent(in) :: mistakes(3)
+      !> The error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: names(3) = [character(len=32) :: "the film's thickness", "the depth worn from the cam", &
+         & "the depth worn from the roller"]
+
+      if (relaxed > fast_part) then
+         call raise(error, kind_domain, "surfaces change within a turn of the cam, over which they are taken as constant: "// &
+            & "rates of growth or removal are too large")
+      else
+         call raise(error, kind_convergence, "running_in.accuracy = "//number_text(running%accuracy, 2)//" is too small: after "// &
+            & number_text(time/hour, 3)//" of "//number_text(running%duration/hour, 3)//" h, with "// &
+            & number_text(1.0e2_wp*used/running%accuracy, 2)//" % of it used up, the error of "// &
+            & trim(names(maxloc(mistakes, 1)))//" asks for steps shorter than a turn of the cam")
+      end if
+   end subroutine refuse_step
 
    !> A step in two halves, and what their error is.
    subroutine take_halves(plan, model, now, rates, step, middle, at_middle, next, mistake, solved, error)

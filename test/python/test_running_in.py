@@ -153,3 +153,34 @@ def test_a_flexible_train_lists_hours_and_turns(camroller, tmp_path):
         assert numpy.isfinite(file["turns/dynamic_load_max"][0]).sum() == 2
         assert file["summary/estimated_error_between_places"][0] > 0.1
     assert "same to the last bit" in done(camroller, "rerun", "hours.h5", folder=tmp_path).stdout
+
+
+ROUGH = ["--no-sweep", "--quiet", "--set", "operating_point.speed_rpm=600", "--set", "tribofilm.roughness_ratio=3", "--set",
+         "tribofilm.coefficient=0.5", "--set", "running_in.places=72"]
+
+
+def test_a_film_whose_friction_takes_many_steps_has_a_result_within_its_accuracy(camroller, tmp_path):
+    """A film twenty times as rough as it is usual: each step over the hours changes friction by much."""
+    found = []
+    for accuracy in (3e-5, 1e-3):
+        done(camroller, "run", DECK, *ROUGH, "--set", f"running_in.accuracy={accuracy}", "-o", "x.h5", folder=tmp_path)
+        with h5py.File(tmp_path / "x.h5") as file:
+            summary = {name: file[f"summary/{name}"][...].item() for name in (
+                "roller_film_thickness", "estimated_error_of_running_in", "running_in_cycles")}
+            found.append((file["series/cam_film_thickness"][0] / 120e-9, summary))
+    (fine, first), (coarse, second) = found
+    stated = first["estimated_error_of_running_in"] + second["estimated_error_of_running_in"]
+    assert abs(fine - coarse).max() <= stated and first["estimated_error_of_running_in"] < 3.6e-5
+    assert abs(first["roller_film_thickness"] - second["roller_film_thickness"]) <= stated * 120e-9
+    assert first["running_in_cycles"] < 1000
+
+
+def test_an_accuracy_of_the_hours_that_is_not_reached_has_a_remark(camroller, tmp_path):
+    """Steps keep to the accuracy; the error of the slip, by a loose tolerance, comes on top."""
+    words = "the hours of running did not reach running_in.accuracy = 0.001: the estimated error of films or depths is "
+    loose = ["--no-sweep", *COARSE[:4], "--set", "numerics.tolerance=0.01"]
+    told = done(camroller, "run", DECK, *loose, "-o", "x.h5", folder=tmp_path).stderr
+    with h5py.File(tmp_path / "x.h5") as file:
+        stated = file["summary/estimated_error_of_running_in"][...].item()
+    assert stated > 1e-3 and f"{words}{stated:.3g}"[:-1] in told
+    assert words[:45] not in done(camroller, "run", DECK, "--no-sweep", *COARSE[:4], "-o", "y.h5", folder=tmp_path).stderr
