@@ -194,9 +194,8 @@ contains
       !> Largest thickness, depths of cam and roller to which errors are relative at most; out, where the accuracy is used up: half
       !> of the depths that are foreseen now [m]
       real(wp), intent(inout) :: scales(3)
-      !> Surfaces at first; out: at the end
+      !> Surfaces and their rates at first; out: at the end
       type(surfaces_t), intent(inout) :: now
-      !> Their rates at first; out: at the end
       type(rates_t), intent(inout) :: rates
       !> The way
       type(aged_t), intent(inout) :: aged
@@ -209,8 +208,9 @@ contains
       type(rates_t) :: at_middle, at_next
       ! Time, length of the step [s]; estimated errors of thickness and depths so far, of a step [m]
       real(wp) :: time, step, mistakes(3), mistake(3)
-      ! Thickness and depths to which errors are relative [m]; part of the accuracy left that the step may have, error over it [-]
-      real(wp) :: foreseen(3), share, ratio
+      ! Thickness and depths to which errors are relative [m]; part of the accuracy left that the step may have, error over it [-];
+      ! largest part of the way to its balance that a film goes in a turn [-]
+      real(wp) :: foreseen(3), share, ratio, relaxed
       logical :: is_last
 
       time = 0.0_wp
@@ -234,7 +234,8 @@ contains
             share = max(step/left, relative([1.0_wp, 0.0_wp, 0.0_wp]*differences(now, next), foreseen), least_part)
             ratio = relative(mistake, foreseen)/((plan%running%accuracy - aged%error)*share)
          end associate
-         if (ratio <= 1.0_wp) then
+         relaxed = two_pi/model%speed*maxval(max(rates%decay, at_middle%decay))
+         if (ratio <= 1.0_wp .and. relaxed <= 1.0_wp) then
             call change_rates(plan, model, next, at_next, aged%solved, error)
             if (allocated(error)) return
             call note_rows(plan, model, time, time + 0.5_wp*step, now, rates, at_middle, aged)
@@ -245,9 +246,8 @@ contains
             now = next
             rates = at_next
             if (is_last) exit
-         else if (step < two_pi/model%speed) then
-            call refuse_step(plan%running, time, two_pi/model%speed*maxval(max(rates%decay, at_middle%decay)), &
-               & aged%error, mistake/max(foreseen, tiny(ratio)), error)
+         else if (step < two_pi/model%speed .or. relaxed > 1.0_wp) then
+            call refuse_step(plan%running, time, relaxed, aged%error, mistake/max(foreseen, tiny(ratio)), error)
             return
          end if
          ! The error of a step goes with the third power of its length
