@@ -143,6 +143,7 @@ def draw_seating(axes, result, order, speed):
     axes.set_ylabel("speed of seating [m/s]")
     other = axes.twinx()
     lines += other.plot(speed, result.summary["bounces"].values[order], color="#d95f02", linestyle=":", label="bounces per cycle")
+    other.set_ylim(bottom=0, top=max(1.0, 1.1*np.nanmax(result.summary["bounces"].values[order])))
     other.set_ylabel("bounces per cycle")
     other.spines["right"].set_visible(True)
     axes.legend(lines, [line.get_label() for line in lines], frameon=False, loc="upper left")
