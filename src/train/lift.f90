@@ -73,8 +73,8 @@ module camroller_lift
       integer :: exponents(0:n_polydyne + 1) = 0
       !> Coefficients of these powers [-]
       real(wp) :: coefficients(0:n_polydyne + 1) = 0.0_wp
-      !> Distance of the closest rows of a table; huge without one [rad]
-      real(wp) :: row_step = huge(1.0_wp)
+      !> Distance of the closest rows of a table; a turn without one [rad]
+      real(wp) :: row_step = two_pi
       !> The table, or the segments
       type(spline_t) :: table
       type(segments_t) :: segments
