@@ -98,9 +98,9 @@ contains
       !> Friction there over that with the oil of the supply [-]
       real(wp), intent(out) :: part
 
-      ! No oil is so much warmer than its supply, and a rise below the least changes nothing worth a word [K]; steps, of which each
-      ! halves what may be off: to 0.2 K
-      real(wp), parameter :: largest = 200.0_wp, least = 2.0_wp
+      ! No oil is so much warmer than its supply, a rise below the least changes nothing worth a word, and one beyond the farthest,
+      ! where no oil leaves, is as good as that [K]; steps, of which each halves what may be off: to 0.2 K
+      real(wp), parameter :: largest = 200.0_wp, least = 2.0_wp, farthest = 1.0e6_wp
       integer, parameter :: steps = 10
       type(oil_t) :: oil
       type(journal_t) :: journal
@@ -134,8 +134,8 @@ contains
             end if
             part = film_friction(journal, load, t)/friction
             flow = t/sqrt(1.0_wp + t**2)/eccentricity
-            if (rise*flow < cold*part) low = rise
-            if (rise*flow >= cold*part) high = rise
+            if (rise*flow < min(cold, farthest)*part) low = rise
+            if (rise*flow >= min(cold, farthest)*part) high = rise
          end do
       end associate
    end subroutine warm_bearing
