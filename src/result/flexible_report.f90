@@ -423,7 +423,7 @@ contains
          associate (values => cycles(lobe)%flexible%values)
             first = list%count
             do i = 1, size(values, 1)
-               call append_quantity(list, trim(lobe_prefix(lobe))//trim(measures(i)%name), trim(merge("deg         ", &
+               call append_quantity(list, trim(lobe_prefix(lobe))//trim(measures(i)%name), trim(merge("degree      ", &
                   & measures(i)%unit, i == largest_load_angle)), trim(measures(i)%meaning), "dynamics", 0.0_wp, lobe_scope(lobe))
             end do
             rows(:size(values, 2), first + 1:list%count) = transpose(values)
