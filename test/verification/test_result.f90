@@ -148,6 +148,7 @@ contains
       call expect_success(error, failure)
       if (allocated(error)) return
       allocate (case%bearing_heat, case%bearing_asperity)
+      case%bearing_asperity%roughness = 1.0e-6_wp
       case%cam_bearings%by_bearing = .true.
       case%cam_bearings%bearing_positions = [(0.01_wp*i, i=1, 12)]
       call list_series(case, series)
