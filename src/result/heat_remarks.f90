@@ -43,7 +43,7 @@ contains
       type(result_t), intent(inout) :: result
 
       if (solved%case%lubricant%temperature_law == temperature_law_names(law_direct)) return
-      if (allocated(solved%shaft%bearings) .and. .not. allocated(solved%case%bearing_heat)) call judge_bearings(solved, films, &
+      if (allocated(solved%shaft%bearings) .and. .not. allocated(solved%case%bearing_heat)) call judge_bearing_oil(solved, films, &
          & torques, result)
       if (.not. allocated(solved%case%heat)) call judge_inlets(solved, result)
    end subroutine judge_heat
@@ -51,7 +51,7 @@ contains
    !> Oil of the bearings of the camshaft whose oil would warm the most: all its bearings together, by their mean torque and their
    !> flow at the mean of their eccentricities. How friction and flow change as the oil thins is that of a bearing with this
    !> eccentricity under a constant load.
-   subroutine judge_bearings(solved, films, torques, result)
+   subroutine judge_bearing_oil(solved, films, torques, result)
       !> The solved case
       type(solved_t), intent(in) :: solved
       !> As of `judge_heat` [m]
@@ -82,10 +82,10 @@ contains
          call warm_bearing(solved, eccentricities(maxloc(rises, 1)), maxval(rises), rise, part)
          if (part > worth_a_word) return
          call add_remark(result%remarks, cool_bearings, "the oil in the bearings of the camshaft is taken at the temperature "// &
-            & "of the supply; friction would warm it by about "//number_text(rise, 2)//" K, and be about "// &
-            & number_text(part, 2)//" of what it is; &bearing_heat computes it", 1.0_wp/part)
+            & "of the supply; friction would warm it by about "//number_text(rise, 2)//" K, and that of "// &
+            & "the film be about "//number_text(part, 2)//" of what it is; &bearing_heat computes it", 1.0_wp/part)
       end associate
-   end subroutine judge_bearings
+   end subroutine judge_bearing_oil
 
    !> Temperature at which the oil carries the friction of a bearing off, by bisection.
    subroutine warm_bearing(solved, eccentricity, cold, rise, part)
@@ -150,7 +150,7 @@ contains
 
       type(oil_t) :: oil
       type(error_t), allocatable :: error
-      type(heat_t) :: steel
+      type(heat_t) :: usual
       ! Speed of entrainment [m/s]; fall of ln(viscosity) [1/K]; ln of the factor [-], its slopes, not used
       real(wp) :: speed, fall, log_factor, slopes(3)
       integer :: lobe, place
@@ -164,7 +164,7 @@ contains
             place = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"entrainment_speed")
             if (place > 0) speed = max(speed, result%summary_values(place))
          end do
-         call inlet_factor(inlet_murch_wilson, fall*model%oil%viscosity/steel%oil_conductivity, speed, 0.0_wp, 0.0_wp, log_factor, &
+         call inlet_factor(inlet_murch_wilson, fall*model%oil%viscosity/usual%oil_conductivity, speed, 0.0_wp, 0.0_wp, log_factor, &
             & slopes(1), slopes(2), slopes(3))
          if (log_factor > log(worth_a_word)) return
          call add_remark(result%remarks, cool_inlet, "films are those of oil as cold as around them; its heating in the inlet "// &

@@ -9,9 +9,9 @@ module test_heat_remarks
    use camroller_number_text, only : number_text
    use camroller_remarks, only : cool_bearings, cool_inlet
    use camroller_result, only : result_t
-   use camroller_run, only : run_case
    use closeness, only : expect_success
    use deck_cases, only : get_deck_case
+   use lobe_cases, only : run
    use result_checks, only : scalar_of
    implicit none
    private
@@ -48,7 +48,7 @@ contains
          call solve(points(i), case, cool, error)
          if (allocated(error)) return
          case%bearing_heat = bearing_heat_t()
-         call solve_again(case, warm, error)
+         call run(case, warm, error)
          if (allocated(error)) return
          part = scalar_of(warm, "mean_torque_bearings")/scalar_of(cool, "mean_torque_bearings")
          k = findloc(cool%remarks%kind, cool_bearings, 1)
@@ -77,7 +77,7 @@ contains
          call solve(points(i), case, cool, error)
          if (allocated(error)) return
          case%heat = heat_t(inlet_law="murch_wilson", contact="none")
-         call solve_again(case, warm, error)
+         call run(case, warm, error)
          if (allocated(error)) return
          part = scalar_of(warm, "min_inlet_heat_factor")
          k = findloc(cool%remarks%kind, cool_inlet, 1)
@@ -104,19 +104,7 @@ contains
       call expect_success(error, failure)
       if (allocated(error)) return
       case%operating_point = point
-      call solve_again(case, result, error)
+      call run(case, result, error)
    end subroutine solve
-
-   !> A case.
-   subroutine solve_again(case, result, error)
-      type(case_t), intent(in) :: case
-      type(result_t), intent(out) :: result
-      type(error_type), allocatable, intent(out) :: error
-
-      type(error_t), allocatable :: failure
-
-      call run_case(case, result, failure)
-      call expect_success(error, failure)
-   end subroutine solve_again
 
 end module test_heat_remarks
