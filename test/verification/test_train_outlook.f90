@@ -226,7 +226,7 @@ contains
    !> and miss the peaks of the load.
    subroutine test_noisy_table(error)
       type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: rows = 701, points = 14400, harmonics = 2400
+      integer, parameter :: half = 350, rows = 2*half + 1, points = 14400, harmonics = 2400
       type(case_t) :: the_case
       type(model_t) :: model
       type(position_t) :: position
@@ -246,7 +246,7 @@ contains
       call make_model(the_case, model, error)
       if (allocated(error)) return
       do i = 1, rows
-         angles(i) = 0.2_wp*degree*(i - 1 - rows/2)
+         angles(i) = 0.2_wp*degree*(i - 1 - half)
          call evaluate_lift(model%lift_law, angles(i), lift)
          lifts(i) = lift(0)*(1.0_wp + 0.03e-6_wp*sin(1.7_wp*i**2)/(lift(0) + 1.0e-6_wp))
       end do
