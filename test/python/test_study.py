@@ -137,10 +137,11 @@ def test_study_of_films_has_rows_for_accuracies_and_nodes(camroller, tmp_path):
 
 
 def test_steady_films_and_those_solved_over_the_cycle_are_both_without_heat(camroller, tmp_path):
-    """Heat in the inlet takes 4 % of the smallest film here, which is no error of the steady film."""
+    """Heat in the inlet takes 2.5 % of the smallest film here, which is no error of the steady film."""
     text = (ROOT / "decks/heated_contact.nml").read_text()
     (tmp_path / "one.nml").write_text(re.sub("speed_rpm = .*", "speed_rpm = 600", text[:text.index("&sweep")]))
-    result = study(camroller, "one.nml", "--film", *QUICK, folder=tmp_path)
+    warm = ["--set", "operating_point.oil_temperature_degC=40"]
+    result = study(camroller, "one.nml", "--film", *QUICK, *warm, folder=tmp_path)
     assert result.returncode == 0, result.stderr
     table = read(tmp_path / "one_film_study.h5")
     assert table["error_smallest_film"][list(table["way"]).index("steady film")] < 0.01
