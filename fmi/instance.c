@@ -330,8 +330,10 @@ int instance_step(instance *self, double time, double length) {
    start.oil_temperature = value_of(self, TEMPERATURE, 0);
    end.oil_temperature = start.oil_temperature + value_of(self, TEMPERATURE_SLOPE, 0) * length;
    start.has_supply = end.has_supply = value_of(self, HAS_SUPPLY, 0) != 0.0;
-   start.supply_pressure = value_of(self, SUPPLY, 0);
-   end.supply_pressure = start.supply_pressure + value_of(self, SUPPLY_SLOPE, 0) * length;
+   if (start.has_supply) {
+      start.supply_pressure = value_of(self, SUPPLY, 0);
+      end.supply_pressure = start.supply_pressure + value_of(self, SUPPLY_SLOPE, 0) * length;
+   }
    int has_pressure = value_of(self, HAS_PRESSURE, 0) != 0.0;
    for (int cam = 1; cam <= self->cams && has_pressure; cam++) {
       self->pressures[cam - 1] = value_of(self, PRESSURE, cam);

@@ -426,7 +426,7 @@ def draw(data):
                 for row in values[shown, i]:
                     panel.plot(TEMPERATURES, row, color=colour, linewidth=0.6, alpha=0.7, zorder=order)
             panel.plot(TEMPERATURES, np.median(values[:, i], axis=0), color="#111111", linewidth=1.8, zorder=3, label="median")
-            panel.set_title(f"{speed:.0f} rev/min: {100 * rising.mean():.0f} % rise", fontsize=9.0)
+            panel.set_title(f"{speed:.0f} rev/min: {100 * rising.mean():.0f} % of the sets rise", fontsize=9.0)
             panel.set_xticks(TEMPERATURES)
             panel.set_yscale("log")
             panel.yaxis.set_major_locator(FixedLocator(TICKS))

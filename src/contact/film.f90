@@ -27,11 +27,11 @@ module camroller_film
    !> Film-thickness laws
    character(len=*), parameter :: film_law_names(*) = [character(len=name_length) :: &
       "dowson_higginson", "pan_hamrock", "masjedi_khonsari", "masjedi_khonsari_rough", "moes"]
-   !> Positions in `film_law_names`
+   !> Positions in `film_law_names`, power laws first: rows of `power_laws`
    integer, parameter :: law_dowson_higginson = 1, law_pan_hamrock = 2, law_masjedi_khonsari = 3, &
       & law_masjedi_khonsari_rough = 4, law_moes = 5
    !> Law that has no name: a table of numerical solutions
-   integer, parameter :: law_table = 6
+   integer, parameter :: law_table = size(film_law_names) + 1
    !> What to do where a law is used outside its published range
    character(len=*), parameter :: range_policy_names(*) = [character(len=name_length) :: "warn", "stop"]
 
@@ -117,12 +117,12 @@ module camroller_film
    !> U < 1e-10, 2500 < G < 5000, 1.5e-5 < W* < 3e-4; Pan and Hamrock, and Masjedi and Khonsari in the first three, as they are
    !> commonly quoted, not compared with the papers; the last two are those of Masjedi and Khonsari's table of solutions; Moes'
    !> formula has the four asymptotes as its limits and so no outer range.
-   real(wp), parameter :: ranges(2, group_count, 5) = reshape([ &
+   real(wp), parameter :: ranges(2, group_count, size(film_law_names)) = reshape([ &
       1.0e-13_wp, 1.0e-10_wp, 2.5e3_wp, 5.0e3_wp, 1.5e-5_wp, 3.0e-4_wp, smooth, &
       1.0e-13_wp, 1.0e-8_wp, 2.0e3_wp, 1.0e4_wp, 2.0e-5_wp, 5.0e-4_wp, smooth, &
       1.0e-12_wp, 1.0e-10_wp, 2.5e3_wp, 7.5e3_wp, 2.0e-5_wp, 5.0e-4_wp, smooth, &
       1.0e-12_wp, 1.0e-10_wp, 2.5e3_wp, 7.5e3_wp, 2.0e-5_wp, 5.0e-4_wp, 0.0_wp, 4.0e-5_wp, 5.0e-3_wp, 3.0e-2_wp, &
-      0.0_wp, open_end, 0.0_wp, open_end, 0.0_wp, open_end, smooth], [2, group_count, 5])
+      0.0_wp, open_end, 0.0_wp, open_end, 0.0_wp, open_end, smooth], [2, group_count, size(film_law_names)])
    !> Least U for which the roughness factors were published; at less they stay as they are there [-]
    real(wp), parameter :: least_rough_speed = ranges(1, 1, law_masjedi_khonsari_rough)
    !> Change of ln U in a rough contact with ln of a factor on films by heat in the inlet: that of an oil with which the smooth
@@ -144,13 +144,17 @@ contains
 
       type(film_line_t) :: line
 
-      if (law == law_moes) then
+      select case (law)
+      case (:law_masjedi_khonsari)
+         call new_film_line(line, law, groups)
+         call power_at_load(line, groups%load, shape)
+      case (law_masjedi_khonsari_rough)
+         call new_film_line(line, law_masjedi_khonsari, groups)
+         call power_at_load(line, groups%load, shape)
+         call roughen(groups, shape)
+      case (law_moes)
          call moes_shape(groups, shape)
-         return
-      end if
-      call new_film_line(line, min(law, law_masjedi_khonsari), groups)
-      call power_at_load(line, groups%load, shape)
-      if (law == law_masjedi_khonsari_rough) call roughen(groups, shape)
+      end select
    end subroutine film_shape
 
    !> Film over the load at the speed of the groups; at standstill there is no film to evaluate.

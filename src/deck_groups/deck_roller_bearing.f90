@@ -50,7 +50,8 @@ contains
          & "K_Z of the bearing's kind, of the oil's return; of cylindrical rollers about 5 with a cage, 6 without", &
          & is_optional=.true.)
       call add_number(schema, "skf_replenishment_factor", not_negative, &
-         & "K_rs of the lubrication: 3e-8 for an oil jet or a low bath, 6e-8 for oil mist", default=standard%skf%replenishment)
+         & "K_rs of the lubrication: 3e-8 for an oil jet or a low bath, 6e-8 for grease or oil-air", &
+         & default=standard%skf%replenishment)
       call add_number(schema, "skf_film_coefficient", not_negative, "mu_EHL, friction coefficient of sliding under a whole film", &
          & default=standard%skf%film_coefficient)
       call add_name(schema, "pin_law", pin_law_names, standard%film%law, "law of the pin's film")

@@ -141,7 +141,7 @@ contains
          end if
          call end_call()
          if (status == 0 .and. letters > member_length) then
-            beginning = names(i)(:shown_letters)
+            beginning = names(i) (:shown_letters)
             call raise(error, kind_file, "cannot list '"//group//"' of '"//file%file//"': the name that begins with '"// &
                & beginning//"' has "//integer_text(int(letters))//" letters, more than "//integer_text(member_length))
             return

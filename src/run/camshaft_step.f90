@@ -12,10 +12,10 @@ module camroller_camshaft_step
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_case, only : case_t
    use camroller_lubricant, only : oil_t, get_oil
-   use camroller_follower_step, only : place_t, inputs_t, outcome_t, piece_number, inputs_between
+   use camroller_follower_step, only : place_t, outcome_t, piece_number
    use camroller_part_series, only : bearing_count
    use camroller_shaft, only : shaft_t, set_drag, set_journal, in_common_frame, bearing_torques
-   use camroller_step_parts, only : part_number
+   use camroller_step_inputs, only : inputs_t, inputs_between, part_number
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings, of_shaft_drag
    implicit none
    private

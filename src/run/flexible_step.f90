@@ -27,8 +27,9 @@ module camroller_flexible_step
    use camroller_run, only : take_way_out
    use camroller_step_judge, only : judge_state
    use camroller_short_piece, only : places, lobatto_places, lobatto_weights, lobatto_error
-   use camroller_follower_step, only : follower_t, inputs_t, outcome_t, piece_number, inputs_between, set_model, set_ramp, &
-      & fill_outcome, end_piece, check_finite, joined, most_tries
+   use camroller_follower_step, only : follower_t, outcome_t, piece_number, set_model, set_ramp, fill_outcome, end_piece, &
+      & check_finite, joined, most_tries
+   use camroller_step_inputs, only : inputs_t, inputs_between
    implicit none
    private
 

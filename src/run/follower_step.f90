@@ -24,28 +24,12 @@ module camroller_follower_step
    use camroller_stick_slip, only : direction_at
    use camroller_follower_piece, only : follower_t, point_t, piece_means_t, cover_piece, fill_nodes, slip_tolerance, most_tries
    use camroller_step_error, only : slip_error_t, judge_point
-   use camroller_step_parts, only : part_number
+   use camroller_step_inputs, only : inputs_t, inputs_between, part_number
    implicit none
    private
 
-   public :: follower_t, point_t, inputs_t, outcome_t, step_follower, piece_number, inputs_between
+   public :: follower_t, point_t, outcome_t, step_follower, piece_number
    public :: set_model, set_ramp, fill_outcome, end_piece, check_finite, joined, most_tries, place_t, place_of, put_back
-
-   !> What a host program gives at an end of a step
-   type :: inputs_t
-      !> Cam speed, above zero [rad/s]
-      real(wp) :: speed = 0.0_wp
-      !> Temperature of the oil [K]
-      real(wp) :: oil_temperature = 0.0_wp
-      !> Does the host give the gas pressure? At both ends of a step or at none; without it that of the case counts
-      logical :: has_pressure = .false.
-      !> Gauge pressure that presses the valve shut [Pa]
-      real(wp) :: gas_pressure = 0.0_wp
-      !> Does the host give the supply pressure of the lash adjuster? As for the gas pressure
-      logical :: has_supply = .false.
-      !> Gauge pressure of the oil at the adjuster [Pa]
-      real(wp) :: supply_pressure = 0.0_wp
-   end type inputs_t
 
    !> Where a follower is between two steps: what it remembers, and what its model is set to
    type :: place_t
@@ -239,22 +223,6 @@ contains
       outcome%torque_drive = outcome%state%torque_drive
       outcome%cam_force = cam_force(model, outcome%state)
    end subroutine fill_outcome
-
-   !> Inputs at a part of a step.
-   pure function inputs_between(start, finish, part) result(inputs)
-      !> Inputs at its ends
-      type(inputs_t), intent(in) :: start, finish
-      !> Part of the step, from 0 to 1 [-]
-      real(wp), intent(in) :: part
-      !> Inputs there
-      type(inputs_t) :: inputs
-
-      inputs = start
-      inputs%speed = start%speed + (finish%speed - start%speed)*part
-      inputs%oil_temperature = start%oil_temperature + (finish%oil_temperature - start%oil_temperature)*part
-      inputs%gas_pressure = start%gas_pressure + (finish%gas_pressure - start%gas_pressure)*part
-      inputs%supply_pressure = start%supply_pressure + (finish%supply_pressure - start%supply_pressure)*part
-   end function inputs_between
 
    !> Extremes over two pieces.
    pure function joined(one, other) result(both)

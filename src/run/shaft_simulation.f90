@@ -11,7 +11,8 @@ module camroller_shaft_simulation
    use camroller_case, only : case_t
    use camroller_catalogue, only : camshaft_columns, camshaft_count, camshaft_values, follower_count, list_series, lobe_columns
    use camroller_lubricant, only : oil_t, get_oil
-   use camroller_follower_step, only : point_t, inputs_t, outcome_t
+   use camroller_follower_step, only : point_t, outcome_t
+   use camroller_step_inputs, only : inputs_t
    use camroller_shaft, only : needs_turn, shaft_t, new_shaft
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, get_mark, get_point, set_point, get_values, simulation_place, put_simulation_back

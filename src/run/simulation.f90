@@ -10,16 +10,16 @@ module camroller_simulation
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_number_text, only : number_text, integer_text
-   use camroller_accuracy, only : resolve_numerics, has_error_control, is_within, above_zero
+   use camroller_accuracy, only : resolve_numerics, has_error_control
    use camroller_case, only : case_t
-   use camroller_model, only : model_t, set_operating_point
+   use camroller_model, only : set_operating_point
    use camroller_catalogue, only : follower_count, follower_values, list_series
    use camroller_kinematics, only : position_t
-   use camroller_lubricant, only : get_oil, oil_t
    use camroller_state, only : state_t
    use camroller_balance, only : find_balance
    use camroller_flexible_step, only : step_train, place_train, halt_train
-   use camroller_follower_step, only : follower_t, point_t, inputs_t, outcome_t, step_follower, place_t, place_of, put_back
+   use camroller_follower_step, only : follower_t, point_t, outcome_t, step_follower, place_t, place_of, put_back
+   use camroller_step_inputs, only : inputs_t, check_inputs
    use camroller_spin, only : rolling_speed_at
    use camroller_cycle_start, only : choose_start
    use camroller_model_mark, only : mark_model
@@ -226,7 +226,8 @@ contains
       else
          call raise(error, kind_usage, "advance: the follower has not been started; call start_simulation first")
       end if
-      if (.not. allocated(error)) call check_inputs(simulation, start, finish, error)
+      if (.not. allocated(error)) call check_inputs(simulation%follower%model, simulation%follower%point%oil_temperature, &
+         & start, finish, error)
       if (allocated(error)) return
       before = place_of(simulation%follower)
       ! Films solved beforehand may be replaced on the way
@@ -434,67 +435,5 @@ contains
       call raise(error, kind_usage, "advance: at this cam angle a step must have at least "//number_text(shortest/degree, 2)// &
          & " deg, "//number_text(least_spacings, 2)//" times the distance of neighbouring numbers there")
    end subroutine check_step
-
-   !> Refuse inputs that cannot be at an end of a step; their middle is checked where the model takes it.
-   subroutine check_inputs(simulation, start, finish, error)
-      !> The follower
-      type(simulation_t), intent(in) :: simulation
-      !> Inputs at both ends
-      type(inputs_t), intent(in) :: start, finish
-      !> Usage, deck or domain error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(oil_t) :: oil
-      ! At both ends [K]
-      real(wp) :: temperatures(2)
-      integer :: i
-
-      temperatures = [start%oil_temperature, finish%oil_temperature]
-      if (.not. all(is_within([start%speed, finish%speed], above_zero, huge(1.0_wp)))) then
-         call raise(error, kind_usage, "advance: the speed must be positive and finite at both ends of a step; where an engine "// &
-            & "stops, end the step before and call halt")
-      else if (.not. all(is_within(temperatures, above_zero, huge(1.0_wp)))) then
-         call raise(error, kind_usage, "advance: the oil temperature must be above 0 K and finite at both ends of a step")
-      else if (start%has_pressure .neqv. finish%has_pressure) then
-         call raise(error, kind_usage, "advance: the gas pressure must be given at both ends of a step or at none")
-      else if (start%has_pressure .and. .not. allocated(simulation%follower%model%gas)) then
-         call raise(error, kind_usage, "advance: a gas pressure needs the valve's area; give the case a gas force, in a deck "// &
-            & "the group &gas_force")
-      else if (start%has_pressure .and. .not. all(ieee_is_finite([start%gas_pressure, finish%gas_pressure]))) then
-         call raise(error, kind_usage, "advance: the gas pressure must be finite at both ends of a step")
-      else if (start%has_supply .or. finish%has_supply) then
-         call check_supply(simulation%follower%model, start, finish, error)
-      end if
-      ! Where the oil has no viscosity is found before the step goes near it
-      do i = 1, 2
-         if (allocated(error)) return
-         if (abs(temperatures(i) - simulation%follower%point%oil_temperature) <= 0.0_wp) cycle
-         call get_oil(simulation%follower%model%lubricant, temperatures(i), oil, error)
-      end do
-   end subroutine check_inputs
-
-   !> Refuse supply pressures that cannot be.
-   subroutine check_supply(model, start, finish, error)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Inputs at both ends of a step, a supply pressure in one of them at least
-      type(inputs_t), intent(in) :: start, finish
-      !> Usage error
-      type(error_t), allocatable, intent(out) :: error
-
-      logical :: has_adjuster
-
-      has_adjuster = .false.
-      if (allocated(model%flexible)) has_adjuster = allocated(model%flexible%adjuster)
-      if (start%has_supply .neqv. finish%has_supply) then
-         call raise(error, kind_usage, "advance: the supply pressure must be given at both ends of a step or at none")
-      else if (.not. has_adjuster) then
-         call raise(error, kind_usage, "advance: a supply pressure needs a hydraulic lash adjuster; give the case one, in a "// &
-            & "deck the groups &dynamics and &lash_adjuster")
-      else if (.not. all(is_within([start%supply_pressure, finish%supply_pressure], 0.0_wp, huge(1.0_wp)))) then
-         call raise(error, kind_usage, "advance: the supply pressure, above ambient, must be 0 or more and finite at both ends "// &
-            & "of a step")
-      end if
-   end subroutine check_supply
 
 end module camroller_simulation

@@ -16,7 +16,7 @@ module camroller_step_judge
    use camroller_number_text, only : append_number
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t
-   use camroller_step_parts, only : part_number
+   use camroller_step_inputs, only : part_number
    implicit none
    private
 

@@ -153,8 +153,13 @@ contains
          & of_copy%state%flexible%modes(1), of_copy%state%flexible%chamber_pressure], [0_int64])), "bits differ after a failure")
       if (allocated(error)) return
       inputs%has_pressure = .false.
+      inputs%gas_pressure = 0.0_wp
       call advance(rigid, 3.3_wp, inputs(1), inputs(2), outcome, failure)
       call check_usage(failure, "lash_adjuster", error)
+      if (allocated(error)) return
+      inputs%has_supply = .false.
+      call advance(rigid, 3.3_wp, inputs(1), inputs(2), outcome, failure)
+      call check_usage(failure, "set has_supply at both ends", error)
    end subroutine test_failure
 
    !> Check that a call is refused with a word in its message.

@@ -4,7 +4,7 @@ module test_shaft_drag
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_case, only : case_t
    use camroller_error, only : error_t, kind_deck, kind_domain
-   use camroller_follower_step, only : inputs_t
+   use camroller_step_inputs, only : inputs_t
    use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
    use camroller_shaft_drag, only : check_shaft_drag, find_shaft_drag, shaft_drag_t

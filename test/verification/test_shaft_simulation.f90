@@ -10,7 +10,7 @@ module test_shaft_simulation
    use camroller_catalogue, only : list_series, camshaft_columns
    use camroller_model_mark, only : mixed
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_step_parts, only : part_number
+   use camroller_step_inputs, only : part_number
    use camroller_torque_list, only : of_bearings
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case

@@ -7,8 +7,9 @@ module result_checks
    use camroller_case, only : camshaft_number, case_t, energy_names
    use camroller_number_text, only : integer_text
    use camroller_remarks, only : film_without_limit, loose_tolerance, missed_extremes, missed_means
-   use camroller_result, only : result_t, find_quantity
+   use camroller_result, only : result_t, find_quantity, is_film
    use camroller_torque_list, only : is_loss, torque_count, torque_series
+   use result_values, only : lost_share, scalar_of, series_of
    implicit none
    private
 
@@ -103,6 +104,7 @@ contains
          if (index(result%series(i)%name, "torque_") == 1 .or. result%series(i)%name == "energy_residual") cycle
          if (index(result%series(i)%name, "camshaft_") == 1 .and. index(result%series(i)%name, "_torque_") > 0) cycle
          low = scalar_of(result, "min_"//result%series(i)%name)
+         if (is_film(result%series(i))) low = low*(1.0_wp - lost_share(result))
          mean = scalar_of(result, "mean_"//result%series(i)%name)
          high = scalar_of(result, "max_"//result%series(i)%name)
          if (.not. (mean >= low - rounding*abs(low) .and. mean <= high + rounding*abs(high))) trouble = trouble//" mean "// &
@@ -218,14 +220,12 @@ contains
       !> Its result
       type(result_t), intent(in) :: result
       character(len=:), allocatable :: trouble
-      ! Sum of the sizes of all powers [W]; parts of the cycle without contact [-]
+      ! Sum of the sizes of all powers [W]
       real(wp), allocatable :: power(:)
-      real(wp) :: lost
 
       trouble = ""
       if (case%energy /= energy_names(1)) return
-      lost = scalar_of(result, "lost_contact_share") + scalar_of(result, "lobe_2_lost_contact_share")
-      if (.not. allocated(case%gas_force) .and. .not. lost > 0.0_wp) then
+      if (.not. allocated(case%gas_force) .and. .not. lost_share(result) > 0.0_wp) then
          if (abs(scalar_of(result, "mean_torque_geometric")) > rounding*scalar_of(result, "max_torque_geometric")) then
             trouble = " the mean of the geometric torque is not zero;"
          end if
@@ -455,36 +455,6 @@ contains
       promised = max(scalar_of(result, estimate), case%numerics%tolerance)
       if (is_checked(case%numerics)) promised = max(promised, case%numerics%accuracy)
    end function promised_error
-
-   !> A series; zeros where the result does not have it.
-   function series_of(result, name) result(values)
-      !> The result
-      type(result_t), intent(in) :: result
-      !> Its name
-      character(len=*), intent(in) :: name
-      ! [unit of the series]
-      real(wp), allocatable :: values(:)
-      integer :: place
-
-      place = find_quantity(result%series, trim(name))
-      values = 0.0_wp*result%angle
-      if (place > 0) values = result%series_values(:, place)
-   end function series_of
-
-   !> A scalar; zero where the result does not have it.
-   function scalar_of(result, name) result(value)
-      !> The result
-      type(result_t), intent(in) :: result
-      !> Its name
-      character(len=*), intent(in) :: name
-      ! [unit of the scalar]
-      real(wp) :: value
-      integer :: place
-
-      value = 0.0_wp
-      place = find_quantity(result%summary, trim(name))
-      if (place > 0) value = result%summary_values(place)
-   end function scalar_of
 
    !> A difference beside what is allowed, in words.
    function words_of_difference(found, allowed) result(words)
