@@ -86,6 +86,7 @@ program main
    use test_film, only : collect_film
    use test_ehl, only : collect_ehl
    use test_ehl_rough, only : collect_ehl_rough
+   use test_ehl_limits, only : collect_ehl_limits
    use test_ehl_map, only : collect_ehl_map
    use test_ehl_law, only : collect_ehl_law
    use test_ehl_settling, only : collect_ehl_settling
@@ -201,6 +202,7 @@ contains
          new_testsuite("effects", collect_effects), &
          new_testsuite("ehl", collect_ehl), &
          new_testsuite("ehl_rough", collect_ehl_rough), &
+         new_testsuite("ehl_limits", collect_ehl_limits), &
          new_testsuite("ehl_map", collect_ehl_map), &
          new_testsuite("ehl_law", collect_ehl_law), &
          new_testsuite("ehl_settling", collect_ehl_settling), &

@@ -19,7 +19,7 @@ module camroller_ehl_cycle
    use camroller_ehl_problem, only : ehl_problem_t, new_ehl_problem, asperity_reach, in_range, range_text
    use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_reynolds, only : new_ehl_fields
-   use camroller_ehl_step, only : moment_t, ehl_march_t, make_step, contact_at, max_rounds
+   use camroller_ehl_step, only : moment_t, ehl_march_t, make_step, contact_at, has_turned, thickening, max_rounds
    implicit none
    private
 
@@ -141,7 +141,7 @@ contains
       end do
       cycle%angle = cycle%moments%angle
       cycle%nodes = march%grid%x
-      call judge(cycle, history(1)%angle, now, options, error)
+      call judge(cycle, history(1), now, options, error)
    end subroutine integrate_ehl_cycle
 
    !> A step that ends at the next stop where it would pass it, and half-way where it would leave a short piece.
@@ -179,8 +179,8 @@ contains
    subroutine judge(cycle, reached, last, options, error)
       !> The cycle
       type(ehl_cycle_t), intent(in) :: cycle
-      !> Last angle reached [rad]
-      real(wp), intent(in) :: reached
+      !> Last contact reached
+      type(moment_t), intent(in) :: reached
       !> Last contact tried
       type(moment_t), intent(in) :: last
       !> How it was integrated
@@ -191,15 +191,18 @@ contains
       character(len=:), allocatable :: reason
 
       if (last%status /= in_range) then
-         call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at "//cam_angle_text(reached, 3))
+         call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at "//cam_angle_text(reached%angle, 3))
       else if (cycle%tried >= most_steps .or. last%angle < start + two_pi - angle_tolerance) then
          reason = "no film was found"
          if (cycle%tried >= most_steps) reason = "the cycle takes too many steps"
          if (last%rounds == max_rounds .and. options%is_transient) reason = "no balance of load and friction was found"
          if (last%rounds == max_rounds .and. .not. options%is_transient) reason = "the balance of load and friction, "// &
             & "where the spike of the pressure is narrower than the nodes, jumps with steady films (a film with squeeze does not)"
+         if (options%is_transient .and. has_turned(last, reached)) reason = "the roller runs backwards so fast that oil begins "// &
+            & "to be drawn in from the other side, which a film with squeeze does not follow (ehl.profiles = .true. has "// &
+            & "steady films of a run)"
          call raise(error, kind_convergence, "ehl: the step size fell below its minimum at "// &
-            & cam_angle_text(reached, 3)//": "//reason)
+            & cam_angle_text(reached%angle, 3)//": "//reason)
       else if (.not. is_periodic(cycle%moments, options%step_error)) then
          call raise(error, kind_convergence, "ehl: the cycle did not become periodic")
       end if
@@ -279,7 +282,7 @@ contains
                   & cam_angle_text(2.0_wp*i*degree, 3))
                return
             end if
-            films = [min(films(1), problem%expected_film), max(films(2), problem%expected_film)]
+            films = [min(films(1), problem%expected_film), max(films(2), problem%expected_film*thickening(march, load))]
             touching = max(touching, asperity_reach(problem))
          end do
       end do

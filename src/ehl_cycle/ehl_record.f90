@@ -7,7 +7,8 @@ module camroller_ehl_record
    use camroller_contact_forces, only : contact_t, parts_t, setting_t, evaluate_contact, prepare_contact, release_contact, &
       & set_speeds
    use camroller_ehl_cycle, only : ehl_cycle_t
-   use camroller_ehl_step, only : moment_t, bearing_moment
+   use camroller_ehl_balance, only : bearing_moment
+   use camroller_ehl_step, only : moment_t
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t, find_quantity
    use camroller_roller, only : spin_acceleration

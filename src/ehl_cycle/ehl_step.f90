@@ -10,16 +10,13 @@ module camroller_ehl_step
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_dual, only : dual_t
-   use camroller_joint_forces, only : finger_moment, has_pivot_friction, set_pivot_forces
-   use camroller_pivot_friction, only : pivot_forces_t, pivot_moment
    use camroller_state, only : evaluate_loading
    use camroller_spin, only : rolling_speed_at, rolling_speed_slope
    use camroller_stick, only : has_stick
    use camroller_roller, only : spin_acceleration
-   use camroller_contact_forces, only : find_bearing_torque, has_curved_bearing
    use camroller_traction, only : law_eyring, rolling_none, limit_shear, mobilised_share, sliding_direction
    use camroller_contact_heat, only : has_hot_contact, set_heat
+   use camroller_ehl_balance, only : balanced_load, bearing_moment
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
    use camroller_ehl_reynolds, only : storage_t
@@ -30,8 +27,8 @@ module camroller_ehl_step
    implicit none
    private
 
-   public :: moment_t, ehl_march_t, make_step, contact_at, find_film, spin_excess, bearing_moment, rate_weights, max_rounds, &
-      & lost_part
+   public :: moment_t, ehl_march_t, make_step, contact_at, find_film, spin_excess, rate_weights, thickening, &
+      & has_turned, max_rounds, lost_part
 
    !> What a step leaves behind
    type :: moment_t
@@ -43,6 +40,8 @@ module camroller_ehl_step
       real(wp) :: length_scale = 0.0_wp, pressure_scale = 0.0_wp, film_scale = 0.0_wp
       !> Is there a film, i.e. contact?
       logical :: has_film = .false.
+      !> Entrainment speed of the film, negative where the roller runs backwards so fast that the inlet is on the other side [m/s]
+      real(wp) :: entrainment = 0.0_wp
       !> Oil in the cells over length and ambient density [m^2]
       real(wp), allocatable :: mass(:)
       !> Film, friction, load share
@@ -91,6 +90,18 @@ contains
       load = scaling_part*march%largest_load
    end function least_load_of
 
+   !> Film at a load over that at the load which scales the nodes: it is in proportion to 1/load where the contact is rigid.
+   pure function thickening(march, load) result(factor)
+      !> What stays over the cycle
+      type(ehl_march_t), intent(in) :: march
+      !> Load; below that at which contact counts as lost the film is that there [N]
+      real(wp), intent(in) :: load
+      !> The factor [-]
+      real(wp) :: factor
+
+      factor = max(1.0_wp, least_load_of(march)/max(load, lost_part*march%largest_load))
+   end function thickening
+
    !> A step from the last moment, and the one before it where there is one, to an angle.
    subroutine make_step(model, march, before, angle, state, now, converged)
       !> The model
@@ -130,7 +141,8 @@ contains
          load = now%load
          call find_film(model, march, position, before, rates, state, now, converged)
          if (.not. converged) return
-         call find_sliding_speed(model, position, before, rates, now)
+         call find_sliding_speed(model, position, before, rates, now, converged)
+         if (.not. converged) return
          ! Where film and slip drive each other round in circles, meet in the middle
          if (round > free_rounds) now%sliding_speed = 0.5_wp*(now%sliding_speed + speed)
          now%load = balanced_load(model, position, moments, now%traction, now%rolling_resistance, now%sliding_speed)
@@ -184,7 +196,7 @@ contains
       contact%line_load = max(now%load, least_load_of(march))/model%contact_width
       contact%radius = position%equivalent_radius
       contact%modulus = model%modulus
-      contact%entrainment_speed = max(abs(surface_speed - 0.5_wp*now%sliding_speed), least_entrainment*abs(surface_speed))
+      contact%entrainment_speed = abs(entrainment_at(model, position, now%sliding_speed))
       contact%sliding_speed = now%sliding_speed
       contact%oil = model%oil
       if (model%shear_law == law_eyring) contact%eyring_stress = model%eyring_stress
@@ -200,6 +212,35 @@ contains
          call set_heat(model, surface_speed, now%sliding_speed, now%films%asperity_rise, contact%heat)
       end if
    end function contact_at
+
+   !> Entrainment speed that the film has: it keeps a least size where the roller's surface runs against the cam's.
+   pure function entrainment_at(model, position, sliding_speed) result(entrainment)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Entrainment speed, in the cam's direction [m/s]
+      real(wp) :: entrainment
+
+      ! Speed of the cam's surface over the contact point [m/s]
+      real(wp) :: surface_speed
+
+      surface_speed = model%speed*position%surface_travel
+      entrainment = surface_speed - 0.5_wp*sliding_speed
+      entrainment = sign(max(abs(entrainment), least_entrainment*abs(surface_speed)), entrainment)
+   end function entrainment_at
+
+   !> Has the inlet of a film changed sides?
+   pure function has_turned(now, before) result(turned)
+      !> The contact, and a moment before
+      type(moment_t), intent(in) :: now, before
+      !> The answer; no where there was no film
+      logical :: turned
+
+      turned = now%has_film .and. before%has_film .and. now%entrainment*before%entrainment < 0.0_wp
+   end function has_turned
 
    !> Film at a load and a sliding speed.
    subroutine find_film(model, march, position, before, rates, state, now, converged)
@@ -233,16 +274,20 @@ contains
       converged = status == in_range
       if (.not. converged) return
       problem%keeps_cells = model%has_local_limit
+      now%entrainment = entrainment_at(model, position, now%sliding_speed)
       now%length_scale = problem%length_scale
       now%pressure_scale = problem%pressure_scale
       now%film_scale = problem%film_scale
       now%has_film = now%load > lost_part*march%largest_load
+      ! Nodes begin at the inlet: oil that was stored with the inlet on the other side has no place on them
+      converged = .not. (march%is_transient .and. has_turned(now, before(1)))
+      if (.not. converged) return
       if (.not. now%has_film) then
          now%films = ehl_films_t()
          return
       end if
       problem%load = 0.5_wp*pi*now%load/max(now%load, least_load_of(march))
-      problem%expected_film = problem%expected_film*max(1.0_wp, least_load_of(march)/now%load)
+      problem%expected_film = problem%expected_film*thickening(march, now%load)
       if (march%is_transient .and. all(before%has_film)) then
          storage%duration = contact%entrainment_speed/(rates(0)*problem%length_scale)
          allocate (storage%mass(march%grid%size), source=0.0_wp)
@@ -270,7 +315,7 @@ contains
 
    !> Sliding speed at which the roller's spin follows from film and load: rest where friction can hold the roller, else Newton's
    !> method inside a bracket.
-   pure subroutine find_sliding_speed(model, position, before, rates, now)
+   pure subroutine find_sliding_speed(model, position, before, rates, now, found)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry
@@ -281,15 +326,18 @@ contains
       real(wp), intent(in) :: rates(0:2)
       !> The contact; sliding speed and forces are set
       type(moment_t), intent(inout) :: now
+      !> Is there such a speed, of ten times that of pure rolling at most?
+      logical, intent(out) :: found
 
-      ! Bracket, its end away from rest, trial [m/s]; excess of the rate [m/s^2], its slope [1/s]; what the moments before add to
-      ! the rate [m/s^2]
-      real(wp) :: low, high, reach, speed, excess, slope, past
+      ! Bracket, its end away from rest, largest speed, trial [m/s]; excess of the rate [m/s^2], its slope [1/s]; what the moments
+      ! before add to the rate [m/s^2]
+      real(wp) :: low, high, reach, most, speed, excess, slope, past
       integer :: iteration
 
       past = dot_product(rates(1:size(before)), before%sliding_speed)
-      low = -10.0_wp*rolling_speed_at(model, position)
-      high = -low
+      most = 10.0_wp*abs(rolling_speed_at(model, position))
+      low = -most
+      high = most
       speed = now%sliding_speed
       ! With the law of rest in question the excess jumps there, so that rest is one end of the bracket unless it is the answer
       if (has_stick(model)) speed = 0.0_wp
@@ -304,6 +352,7 @@ contains
          speed = speed - excess/slope
          if (speed <= low .or. speed >= high) speed = 0.5_wp*(low + high)
       end do
+      found = abs(speed) < most*(1.0_wp - 1.0e-6_wp)
       now%sliding_speed = speed
       now%damping = (slope - rates(0))/model%speed
    end subroutine find_sliding_speed
@@ -326,8 +375,9 @@ contains
       !> Derivative over the sliding speed, without the rate's own [1/s]
       real(wp), intent(out) :: slope
 
-      ! Slopes of the limited over the free shear and over the limit [-]; slope of traction [N s/m]; torque of the bearing [N m]
-      real(wp) :: by_shear, by_limit, traction_slope, torque
+      ! Slopes of the limited over the free shear and over the limit [-]; slopes of traction and rolling resistance [N s/m]; torque
+      ! of the bearing [N m]
+      real(wp) :: by_shear, by_limit, traction_slope, rolling_slope, torque
       ! Mobilised part of boundary friction [-]; excess over traction [1/kg]; friction that leaves no excess [N]
       real(wp) :: part, by_traction, holding
       type(boundary_friction_t) :: friction
@@ -337,9 +387,14 @@ contains
       now%boundary_capacity = 0.0_wp
       now%rolling_resistance = 0.0_wp
       traction_slope = 0.0_wp
+      rolling_slope = 0.0_wp
       torque = bearing_moment(model, position, now%load, speed)
       if (now%has_film) then
-         if (model%rolling_law /= rolling_none) now%rolling_resistance = now%films%rolling*model%contact_width
+         if (model%rolling_law /= rolling_none) then
+            ! Along its tangent through the film's own speed, as if in proportion, so that it changes its sign with the entrainment
+            rolling_slope = -0.5_wp*now%films%rolling*model%contact_width/abs(now%entrainment)
+            now%rolling_resistance = rolling_slope*(speed - 2.0_wp*model%speed*position%surface_travel)
+         end if
          traction_slope = now%films%shear_slope*model%contact_width
          now%traction = traction_slope*speed
          if (model%has_local_limit) then
@@ -370,126 +425,11 @@ contains
       excess = rate - model%speed*rolling_speed_slope(model, position) + model%roller_radius*spin_acceleration(now%traction, &
          & merge(now%rolling_resistance, 0.0_wp, model%has_rolling_in_balance), model%roller_radius, torque, model%roller_inertia)
       by_traction = model%roller_radius**2/model%roller_inertia
-      slope = by_traction*traction_slope
+      slope = by_traction*(traction_slope - merge(rolling_slope, 0.0_wp, model%has_rolling_in_balance))
       if (abs(speed) > 0.0_wp .or. .not. has_stick(model)) return
       holding = -excess/by_traction
       now%traction = now%traction + sign(min(abs(holding), now%boundary_capacity), holding)
       excess = sign(by_traction*max(0.0_wp, abs(holding) - now%boundary_capacity), excess)
    end subroutine spin_excess
-
-   !> Torque of the roller's bearing.
-   pure function bearing_moment(model, position, load, sliding_speed) result(torque)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Geometry
-      type(position_t), intent(in) :: position
-      !> Load [N], sliding speed [m/s]
-      real(wp), intent(in) :: load, sliding_speed
-      !> Torque [N m]
-      real(wp) :: torque
-
-      real(wp) :: by_load ! [m]
-
-      call find_bearing_torque(model, load, spin_at(model, position, sliding_speed), torque, by_load)
-   end function bearing_moment
-
-   !> Spin of the roller over the finger.
-   pure function spin_at(model, position, sliding_speed) result(spin)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Geometry
-      type(position_t), intent(in) :: position
-      !> Sliding speed [m/s]
-      real(wp), intent(in) :: sliding_speed
-      !> The spin [rad/s]
-      real(wp) :: spin
-
-      spin = (rolling_speed_at(model, position) - sliding_speed)/model%roller_radius &
-         & - model%linkage%sense*position%finger_slope*model%speed
-   end function spin_at
-
-   !> Load at which the finger is in balance with the friction given.
-   pure function balanced_load(model, position, moments, traction, rolling, sliding_speed) result(load)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Geometry
-      type(position_t), intent(in) :: position
-      !> Moments about the pivot
-      type(moments_t), intent(in) :: moments
-      !> Traction and rolling resistance [N]
-      real(wp), intent(in) :: traction, rolling
-      !> Sliding speed [m/s]
-      real(wp), intent(in) :: sliding_speed
-      !> Load; zero where the moments would lift the roller off [N]
-      real(wp) :: load
-
-      ! Rounds, at most
-      integer, parameter :: most_rounds = 50
-      ! Relative change of the load that ends them [-]
-      real(wp), parameter :: tolerance = 4.0_wp*epsilon(1.0_wp)
-      ! Moment that the contact balances, torque of the roller's bearing [N m]; arm, slope of that torque over the load [m]
-      real(wp) :: moment, torque, arm, by_load
-      ! Net tangential force on the roller, load of the round before [N]
-      real(wp) :: tangential, before
-      integer :: round
-
-      arm = merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
-      moment = finger_moment(model, position, moments)
-      if (model%is_consistent) then
-         tangential = traction + rolling*(2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp)
-         moment = moment - model%linkage%sense*tangential*position%tangent_arm
-      end if
-      load = max(moment/arm, 0.0_wp)
-      torque = 0.0_wp
-      by_load = 0.0_wp
-      do round = 1, most_rounds
-         before = load
-         ! Along the tangent of the torque, which is the torque where it is in proportion
-         if (model%is_consistent) call find_bearing_torque(model, load, spin_at(model, position, sliding_speed), torque, by_load)
-         torque = torque - by_load*load
-         load = (moment - model%linkage%sense*torque)/(arm + model%linkage%sense*by_load)
-         if (has_pivot_friction(model)) call add_pivot_friction(model, position, moments, tangential, moment &
-            & - model%linkage%sense*torque, arm + model%linkage%sense*by_load, load)
-         load = max(load, 0.0_wp)
-         if (.not. has_curved_bearing(model) .or. abs(load - before) <= tolerance*load) exit
-      end do
-      if (model%takes_maximum_load) load = max(load, model%base_circle_load)
-   end function balanced_load
-
-   !> The same with the friction of the pivot, which depends on the load: a contraction, whose factor is the friction circle of the
-   !> ball over the arm of the load.
-   pure subroutine add_pivot_friction(model, position, moments, tangential, moment, arm, load)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Geometry
-      type(position_t), intent(in) :: position
-      !> Moments about the pivot
-      type(moments_t), intent(in) :: moments
-      !> Net tangential force on the roller [N]
-      real(wp), intent(in) :: tangential
-      !> Moment that the load balances without the pivot's [N m], arm of the load [m]
-      real(wp), intent(in) :: moment, arm
-      !> In: load without the friction of the pivot, out: with it [N]
-      real(wp), intent(inout) :: load
-
-      ! Rounds, at most
-      integer, parameter :: most_rounds = 50
-      ! Relative change of the load that ends them [-]
-      real(wp), parameter :: tolerance = 4.0_wp*epsilon(1.0_wp)
-      type(pivot_forces_t) :: forces
-      ! Friction of the pivot [N m]
-      type(dual_t) :: friction
-      ! Load of the round before [N]
-      real(wp) :: before
-      integer :: round
-
-      call set_pivot_forces(model, position, moments, 0.0_wp, forces)
-      do round = 1, most_rounds
-         before = load
-         friction = pivot_moment(model%joints%pivot, forces, dual_t(load, 0.0_wp), dual_t(tangential, 0.0_wp))
-         load = (moment + friction%value)/arm
-         if (abs(load - before) <= tolerance*abs(load)) exit
-      end do
-   end subroutine add_pivot_friction
 
 end module camroller_ehl_step
