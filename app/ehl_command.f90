@@ -20,8 +20,12 @@ module camroller_ehl_command
    use camroller_ehl_file, only : ehl_file_t, open_ehl, write_ehl, close_ehl
    use camroller_ehl_page, only : ehl_line_t, write_friction, write_head, write_line
    use camroller_ehl_profiles, only : judge_light, plain_model
-   use camroller_ehl_record, only : ehl_record_t, cycle_quantities, keep_nodes, make_ehl_record
+   use camroller_ehl_record, only : ehl_record_t, cycle_quantities, keep_nodes, make_ehl_record, solved_state
    use camroller_ehl_summary, only : make_ehl_summary
+   use camroller_cycle_shares, only : add_shares
+   use camroller_film_remarks, only : judge_films, judge_pressure, judge_traction, name_lobe
+   use camroller_hertz, only : peak_pressure
+   use camroller_state, only : state_t
    use camroller_events, only : contact_losses, cycle_stops, find_stops
    use camroller_layout, only : layout_t
    use camroller_margins, only : find_margins, margins_t
@@ -62,11 +66,18 @@ contains
       type(ehl_line_t), allocatable :: lines(:)
       type(error_t), allocatable :: unheard
       character(len=:), allocatable :: path, text
+      integer :: i
 
       call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
-      if (.not. config%is_quiet) call tell_deck_remarks(deck)
+      if (.not. config%is_quiet) then
+         call tell_deck_remarks(deck)
+         do i = 1, size(config%overrides)
+            if (is_of_runs(config%overrides(i)%text)) call tell("remark: "//config%overrides(i)%text// &
+               & " has no effect on solved contacts: it is used by runs"//new_line("a"))
+         end do
+      end if
       call find_place(config, deck, result_kind, "_ehl.h5", path, error)
       if (allocated(error)) return
       call study_facts(deck, facts)
@@ -91,6 +102,23 @@ contains
       if (allocated(unheard)) call move_alloc(unheard, error)
       if (.not. allocated(error)) call conclude(writer%tally, error)
    end subroutine ehl_deck
+
+   !> Is a value that is given beside the deck for runs alone? Contacts are solved to `ehl.accuracy` at `angle_count` angles.
+   pure function is_of_runs(override) result(verdict)
+      !> As `group.key=value`
+      character(len=*), intent(in) :: override
+      !> Is it?
+      logical :: verdict
+
+      character(len=*), parameter :: of_runs(*) = [character(len=22) :: "numerics.", "effects.", "output.angle_step_deg=", &
+         & "output.series=", "film.range_policy="]
+      integer :: i
+
+      verdict = .false.
+      do i = 1, size(of_runs)
+         verdict = verdict .or. index(override, trim(of_runs(i))) == 1
+      end do
+   end function is_of_runs
 
    !> Solve, write and report every case.
    subroutine solve_cases(deck, is_quiet, writer, file, lines, unheard, error)
@@ -175,17 +203,19 @@ contains
       type(ehl_cycle_options_t) :: options
       ! Time [s]
       real(wp) :: start, finish
+      integer :: lobe
 
       call cpu_time(start)
+      lobe = merge(merge(2, 1, is_second), 0, allocated(case%second_lift))
       call plain_model(model, case, is_second, error)
-      if (.not. allocated(error)) call judge_forces(model, merge(merge(2, 1, is_second), 0, allocated(case%second_lift)), remarks, &
-         & error)
+      if (.not. allocated(error)) call judge_forces(model, lobe, remarks, error)
       if (allocated(error)) return
       call integrate_converged(cycle, model, line%coarse, line%fine, options, error)
       if (allocated(error)) return
       line%steps = size(cycle%angle)
       call make_ehl_record(record, model, cycle, cycle_quantities)
       call judge_light(record, remarks)
+      call judge_solution(model, cycle, lobe, remarks)
       call keep_nodes(record, fewest_nodes)
       call line%set_friction(record)
       options%is_transient = .false.
@@ -235,5 +265,45 @@ contains
       statistics%lost_share = sum(intervals(2, :) - intervals(1, :))/two_pi
       call judge_lobe(model, cycle, statistics, margins, lobe, remarks, error)
    end subroutine judge_forces
+
+   !> Remarks on the solved film: its pressure, its thickness beside the roughness, its traction.
+   subroutine judge_solution(model, cycle, lobe, remarks)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The cycle
+      type(ehl_cycle_t), intent(in) :: cycle
+      !> Lobe shape to be named; 0 where there is one alone
+      integer, intent(in) :: lobe
+      !> Remarks on the case so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      type(statistics_t) :: statistics
+      type(state_t) :: state
+      ! Largest pressure of the dry contact [Pa]; film over the equivalent radius, half of an interval as part of the turn [-]
+      real(wp) :: pressure, film, half
+      integer :: i, k, first
+
+      pressure = 0.0_wp
+      do i = 2, size(cycle%moments)
+         half = 0.5_wp*(cycle%angle(i) - cycle%angle(i - 1))/two_pi
+         do k = i - 1, i
+            if (.not. cycle%moments(k)%has_film) cycle
+            call solved_state(model, cycle%moments(k), state)
+            call add_shares(statistics, model, state, cycle%angle(k), .false., half)
+         end do
+         if (.not. cycle%moments(i)%has_film) cycle
+         pressure = max(pressure, peak_pressure(state%contact%load, state%position%equivalent_radius, model%contact_width, &
+            & model%modulus))
+         film = state%contact%film_central/state%position%equivalent_radius
+         if (film <= statistics%thickest_film) cycle
+         statistics%thickest_film = film
+         statistics%thickest_angle = cycle%angle(i)
+      end do
+      first = size(remarks) + 1
+      call judge_pressure(model, pressure, remarks)
+      call judge_traction(model, statistics, remarks)
+      call judge_films(statistics, .false., remarks)
+      call name_lobe(remarks, first, lobe)
+   end subroutine judge_solution
 
 end module camroller_ehl_command

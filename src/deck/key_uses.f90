@@ -28,6 +28,8 @@ module camroller_key_uses
       character(len=choice_length) :: choice
       !> Its values, blanks between them, or a sign
       character(len=choice_length) :: values = given
+      !> Group that has to be there as well, without its `&`; blank: none
+      character(len=key_length) :: group = ""
    end type key_use_t
 
    !> Laws of lift with angles, those of the oil's viscosity over the temperature that need its density, or points, those of
@@ -66,11 +68,12 @@ module camroller_key_uses
       key_use_t("lubricant.thermal_expansion_per_K", "&needle_drag"), &
       key_use_t("lubricant.thermal_expansion_per_K", "needle_bearing.kind", "needles_skf"), &
       key_use_t("lubricant.thermal_expansion_per_K", "&bearing_heat"), &
-      key_use_t("lubricant.density_kg_m3", "ehl.profiles", yes), &
-      key_use_t("lubricant.thermal_expansion_per_K", "ehl.profiles", yes), &
+      key_use_t("lubricant.density_kg_m3", "ehl.profiles", yes, "heat"), &
+      key_use_t("lubricant.thermal_expansion_per_K", "ehl.profiles", yes, "heat"), &
       key_use_t("lubricant.roelands_index", "pressure_viscosity_coefficient_per_GPa", not_given), &
       key_use_t("film.law", "&ehl", not_given), &
       key_use_t("film.law", "ehl.profiles", yes), &
+      key_use_t("film.law", "camroller ehl", by_command), &
       key_use_t("ehl.shear_thinning", "profiles", yes), &
       key_use_t("ehl.shear_thinning", "camroller ehl", by_command), &
       key_use_t("ehl.flow_factors", "profiles", yes), &
@@ -197,6 +200,7 @@ contains
             words = words//"with "//trim(uses(i)%choice)//" = "
             call add_alternatives(trim(uses(i)%values), words)
          end if
+         if (uses(i)%group /= "") words = words//" and &"//trim(uses(i)%group)
       end do
    end subroutine say_use
 
@@ -240,6 +244,9 @@ contains
       !> Is it?
       logical :: verdict
 
+      verdict = use%group == ""
+      if (.not. verdict) verdict = has_group(settings, trim(use%group))
+      if (.not. verdict) return
       if (choice(1:1) == "&") then
          verdict = has_group(settings, trim(choice(2:))) .eqv. use%values == given
          return

@@ -18,7 +18,8 @@ module camroller_ehl_record
    implicit none
    private
 
-   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, keep_nodes, column, cycle_quantities, profile_quantities
+   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, keep_nodes, solved_state, column, cycle_quantities, &
+      & profile_quantities
 
    !> Pressure, film and quantities of a cycle
    type :: ehl_record_t

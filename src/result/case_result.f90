@@ -10,7 +10,8 @@ module camroller_case_result
    use camroller_model, only : model_t
    use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_cycle_remarks, only : judge_films, judge_laws, judge_lobe, judge_pin, judge_pressure
+   use camroller_cycle_remarks, only : judge_laws, judge_lobe
+   use camroller_film_remarks, only : judge_films, judge_pin, judge_pressure, name_lobe
    use camroller_catalogue, only : follower_count, follower_values, camshaft_columns, camshaft_count, &
       & camshaft_values, lobe_columns, lobe_prefix
    use camroller_sampled_extremes, only : samples_t
@@ -235,19 +236,19 @@ contains
       !> Gets the remarks; has its summary
       type(result_t), intent(inout) :: result
 
-      integer :: lobe, pin, pressure
+      integer :: lobe, pin, pressure, first
 
       call judge_laws(models(1), result%remarks)
       do lobe = 1, size(models)
-         associate (named => merge(lobe, 0, size(models) > 1))
-            call judge_films(statistics(lobe), find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))// &
-               & "asperity_friction_share") > 0, named, result%remarks)
-            pressure = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//trim(severest("hertz_pressure", &
-               & allocated(case%roller_profile))))
-            call judge_pressure(models(lobe), result%summary_values(pressure), named, result%remarks)
-            pin = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"pin_film_min")
-            if (pin > 0) call judge_pin(case%needle_bearing%film%roughness, result%summary_values(pin), named, result%remarks)
-         end associate
+         first = size(result%remarks) + 1
+         call judge_films(statistics(lobe), find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))// &
+            & "asperity_friction_share") > 0, result%remarks)
+         pressure = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//trim(severest("hertz_pressure", &
+            & allocated(case%roller_profile))))
+         call judge_pressure(models(lobe), result%summary_values(pressure), result%remarks)
+         pin = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"pin_film_min")
+         if (pin > 0) call judge_pin(case%needle_bearing%film%roughness, result%summary_values(pin), result%remarks)
+         call name_lobe(result%remarks, first, merge(lobe, 0, size(models) > 1))
       end do
    end subroutine judge_extremes
 

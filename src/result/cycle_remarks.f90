@@ -2,7 +2,6 @@
 !>
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
-   use camroller_bearing_asperity, only : thinnest_smooth_film
    use camroller_cam_angle, only : append_cam_angle, cam_angle_text, file_angle
    use camroller_kinds, only : wp
    use camroller_engine, only : write_speed
@@ -15,30 +14,24 @@ module camroller_cycle_remarks
    use camroller_train_remarks, only : judge_train
    use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : joint_rounding, margins_t
-   use camroller_cycle_shares, only : liquid_stress, shear_ratio_allowed, thinnest_film
-   use camroller_means, only : has_film_limit, statistics_t
+   use camroller_cycle_shares, only : shear_ratio_allowed
+   use camroller_film_remarks, only : judge_traction, name_lobe, notable_share
+   use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
-   use camroller_lubricant, only : pressure_limit
-   use camroller_remarks, only : remark_t, add_remark, backward_roller, beyond_pressure_law, cut_off_contact, film_without_limit, &
-      & foreign_asperities, hot_film, hot_inlet, lifted_valve, lost_contact, open_pivot, outside_range, pumped_adjuster, &
-      & liquid_limit, oiled_slices, rigid_contact, rolling_out_of_range, rubbing_contact, rubbing_pin, standing_entrainment, &
-      & unloaded_end, unresolved_slip, yielding_surface
+   use camroller_remarks, only : remark_t, add_remark, cut_off_contact, foreign_asperities, hot_film, hot_inlet, lifted_valve, &
+      & lost_contact, open_pivot, outside_range, pumped_adjuster, oiled_slices, rigid_contact, rolling_out_of_range, &
+      & standing_entrainment, unloaded_end, unresolved_slip
    use camroller_result, only : lobe_scope
    implicit none
    private
 
-   public :: judge_laws, judge_lobe, judge_films, judge_pin, judge_pressure
+   public :: judge_laws, judge_lobe
 
    !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
-   !> Pressure over hardness at which a line contact yields below its surface: 1.8 yield stresses, of which hardness is about three
-   !> (Johnson 1985, sections 4.5 and 6.3) [-]; contact stress that the static load rating of roller bearings allows (ISO 76:2006)
-   !> [Pa]
-   real(wp), parameter :: yield_part = 0.6_wp, static_limit = 4.0e9_wp
-   !> Part of a cycle that is all of it but for rounding; part from which on shear of the film, or oil beside the dry contact, is
-   !> worth a word: moments beside a lost contact are less [-]
-   real(wp), parameter :: all_of_it = 1.0_wp - 1.0e-9_wp, notable_share = 0.01_wp
+   !> Part of a cycle that is all of it but for rounding [-]
+   real(wp), parameter :: all_of_it = 1.0_wp - 1.0e-9_wp
    !> Intervals without contact that a remark lists
    integer, parameter :: most_intervals = 4
 
@@ -75,7 +68,7 @@ contains
       !> Domain error where the case forbids what happens
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: first, i
+      integer :: first
 
       first = size(remarks) + 1
       if (allocated(cycle%flexible)) then
@@ -93,104 +86,9 @@ contains
             & number_text(-margins%seat%force, 3)//" N are missing at "//cam_angle_text(margins%seat%angle, 1)//" to hold it, "// &
             & "and the rigid train keeps it shut; &dynamics lets it open", -margins%seat%force)
       end if
-      if (lobe == 0) return
-      call add_context(error, trim(lobe_scope(lobe)))
-      do i = first, size(remarks)
-         remarks(i)%lobe = lobe
-         remarks(i)%text = trim(lobe_scope(lobe))//": "//remarks(i)%text
-      end do
+      if (lobe > 0) call add_context(error, trim(lobe_scope(lobe)))
+      call name_lobe(remarks, first, lobe)
    end subroutine judge_lobe
-
-   !> Say that films have no mean and no largest value: formulas let them grow without limit as the load goes to zero, and how far
-   !> they get hangs on how closely a loss of contact is met. So do the parts of what friction there is.
-   subroutine judge_films(statistics, has_asperities, lobe, remarks)
-      !> Statistics of the lobe
-      type(statistics_t), intent(in) :: statistics
-      !> Do asperities have a part of the friction?
-      logical, intent(in) :: has_asperities
-      !> Lobe shape to be named; 0 where there is one alone
-      integer, intent(in) :: lobe
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      character(len=*), parameter :: of_share = "; smallest and largest asperity_friction_share may be those of next to no "// &
-         & "friction there"
-      integer :: last
-
-      if (has_film_limit(statistics)) return
-      call add_remark(remarks, film_without_limit, "mean and largest value of film thicknesses and of film_ratio have "// &
-         & "no limit: the load falls to next to nothing, where formulas let the film grow; at cam angle "// &
-         & fixed_text(file_angle(statistics%thickest_angle), 1)//" deg it is "//number_text(statistics%thickest_film, 2)// &
-         & " of the equivalent radius, and formulas hold for a small part of it"// &
-         & of_share(:merge(len(of_share), 0, has_asperities)), statistics%thickest_film)
-      if (lobe == 0) return
-      last = size(remarks)
-      remarks(last)%lobe = lobe
-      remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
-   end subroutine judge_films
-
-   !> Say that the contact's pressure is above that to which the law of viscosity over pressure holds, or what its surfaces stand.
-   subroutine judge_pressure(model, largest, lobe, remarks)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Its largest pressure, of the dry contact [Pa]
-      real(wp), intent(in) :: largest
-      !> Lobe shape to be named; 0 where there is one alone
-      integer, intent(in) :: lobe
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      real(wp) :: limit ! [Pa]
-      character(len=:), allocatable :: reached
-      integer :: first, i
-
-      if (.not. allocated(remarks)) allocate (remarks(0))
-      first = size(remarks) + 1
-      limit = pressure_limit(model%lubricant)
-      reached = "the pressure goes up to "
-      call append_number(reached, 1.0e-9_wp*largest, 3)
-      reached = reached//" GPa; "
-      if (largest > limit) call add_remark(remarks, beyond_pressure_law, reached//"the law '"// &
-         & trim(model%lubricant%pressure_law)//"' of viscosity over pressure holds to about "//number_text(1.0e-9_wp*limit, 2)// &
-         & " GPa, and traction and slip follow it (pressure_law = 'roelands' is used above that, too, "// &
-         & "where it extrapolates from measurements)", largest/limit)
-      limit = static_limit
-      if (model%hardness > 0.0_wp) limit = yield_part*model%hardness
-      if (largest > limit .and. model%hardness > 0.0_wp) then
-         call add_remark(remarks, yielding_surface, reached//"from "//number_text(1.0e-9_wp*limit, 2)//" GPa on, "// &
-            & number_text(yield_part, 1)//" of materials.hardness_GPa, the softer body yields below its surface, which is "// &
-            & "elastic here", largest/limit)
-      else if (largest > limit) then
-         call add_remark(remarks, yielding_surface, reached//"even the hard steel of roller bearings stands "// &
-            & number_text(1.0e-9_wp*limit, 2)//" GPa (ISO 76), and bodies are elastic here", largest/limit)
-      end if
-      if (lobe == 0) return
-      do i = first, size(remarks)
-         remarks(i)%lobe = lobe
-         remarks(i)%text = trim(lobe_scope(lobe))//": "//remarks(i)%text
-      end do
-   end subroutine judge_pressure
-
-   !> Say that the film on the roller's pin is too thin for its law.
-   subroutine judge_pin(roughness, smallest, lobe, remarks)
-      !> Roughness of roller and pin, smallest film of the cycle between them [m]
-      real(wp), intent(in) :: roughness, smallest
-      !> Lobe shape to be named; 0 where there is one alone
-      integer, intent(in) :: lobe
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      integer :: last
-
-      if (smallest >= thinnest_smooth_film*roughness) return
-      call add_remark(remarks, rubbing_pin, "the film between roller and pin goes down to "//number_text(smallest/roughness, 2)// &
-         & " of their roughness; below about "//number_text(thinnest_smooth_film, 2)//" the law for smooth surfaces leaves the "// &
-         & "film load that asperities would carry, and the friction stated is too small", roughness/max(smallest, tiny(smallest)))
-      if (lobe == 0) return
-      last = size(remarks)
-      remarks(last)%lobe = lobe
-      remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
-   end subroutine judge_pin
 
    !> Warn or stop where contact is lost.
    subroutine check_contact(model, cycle, statistics, margins, remarks, error)
@@ -351,13 +249,8 @@ contains
          & "part alone would halve the film; a continuation stands for it", 100.0_wp*statistics%inlet_share)
       if (statistics%hot_share > 0.0_wp) call check_hot_film(model, statistics, remarks)
       if (statistics%rolling_share > 0.0_wp) call check_rolling(statistics, remarks)
-      if (statistics%thin_share > 0.0_wp) call check_thin_film(allocated(model%boundary), statistics, remarks)
       if (statistics%rigid_share > notable_share) call check_rigid(statistics, remarks)
-      if (statistics%liquid_share > notable_share) call check_liquid(model, statistics, remarks)
-      if (statistics%backward_share > notable_share) call add_remark(remarks, backward_roller, "the roller turns backwards in "// &
-         & "its finger for "//number_text(100.0_wp*statistics%backward_share, 3)//" % of the cycle: rolling resistance is "// &
-         & "larger there than the shear of the film, which tells of laws beyond what they describe", &
-         & 100.0_wp*statistics%backward_share)
+      call judge_traction(model, statistics, remarks)
       if (statistics%film_range%share <= 0.0_wp) return
       call range_in_words(statistics%film_range, model%film_law, words)
       text = trim(outside_words(model%film_law))//" for "
@@ -432,31 +325,6 @@ contains
       call add_remark(remarks, rolling_out_of_range, text, 100.0_wp*statistics%rolling_share)
    end subroutine check_rolling
 
-   !> Say that the film is next to nothing beside the roughness.
-   pure subroutine check_thin_film(has_asperities, statistics, remarks)
-      !> Does the case have asperities?
-      logical, intent(in) :: has_asperities
-      !> Means over the cycle of a lobe
-      type(statistics_t), intent(in) :: statistics
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      character(len=:), allocatable :: text
-
-      text = "the film between cam and roller is below "
-      call append_number(text, thinnest_film, 2)
-      text = text//" of the roughness for "
-      call append_number(text, 100.0_wp*statistics%thin_share, 3)
-      text = text//" % of the cycle, down to "
-      call append_number(text, statistics%thinnest_ratio, 2)
-      text = text//" at "
-      call append_cam_angle(text, statistics%thinnest_angle, 1)
-      text = text//"; laws for smooth surfaces leave the film load there that asperities would carry, and friction may be far "// &
-         & "too small"
-      if (.not. has_asperities) text = text//"; without &asperity none is counted"
-      call add_remark(remarks, rubbing_contact, text, 100.0_wp*statistics%thin_share)
-   end subroutine check_thin_film
-
    !> Say that the dry contact's strip is used for the shear of a film that is hardly pressed together.
    subroutine check_rigid(statistics, remarks)
       !> Means over the cycle of a lobe
@@ -477,22 +345,5 @@ contains
          & verdict//", and slip is off with it; traction.sheared_zone = 'rigid_to_elastic' is for such contacts", &
          & 100.0_wp*statistics%rigid_share)
    end subroutine check_rigid
-
-   !> Say that the traction of a film is limited whose pressure does not make its oil solid.
-   subroutine check_liquid(model, statistics, remarks)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Means over its cycle
-      type(statistics_t), intent(in) :: statistics
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      call add_remark(remarks, liquid_limit, "traction.limit = 'mean' holds the shear of the film to "// &
-         & number_text(model%limiting_coefficient, 3)//" of the load for "//number_text(100.0_wp*statistics%liquid_share, 3)// &
-         & " % of the cycle at mean stresses below "//number_text(1.0e-6_wp*liquid_stress, 2)//" MPa, down to "// &
-         & number_text(1.0e-6_wp*statistics%least_limit, 2)//" MPa, where oil is liquid and has no such limit, and the roller "// &
-         & "slips too much; 'local' with a limiting_stress_MPa, of some MPa for most oils, has none there", &
-         & 100.0_wp*statistics%liquid_share)
-   end subroutine check_liquid
 
 end module camroller_cycle_remarks

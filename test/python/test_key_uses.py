@@ -132,6 +132,10 @@ SCENES = {
     "numerical film": ([], "&ehl accuracy = 0.1 /\n", [BOUNDARY.removeprefix("film.law "), POWER, POINTS, NEEDLES]),
     "numerical film with heat": (
         [], "&ehl accuracy = 0.1 /\n&heat contact = 'none' /\n", [BOUNDARY.removeprefix("film.law "), POWER, POINTS, NEEDLES]),
+    "profiles of an isothermal film": (
+        ["output.angle_step_deg=20", "traction.shear_law=eyring", "traction.eyring_stress_MPa=5"],
+        "&ehl accuracy = 0.1 profiles = .true. /\n",
+        [BOUNDARY, POWER, POINTS, NEEDLES, "ehl.shear_thinning ehl.flow_factors traction.eyring_stress_MPa"]),
     WARM: (
         ["output.angle_step_deg=20", "traction.shear_law=eyring", "traction.eyring_stress_MPa=5"],
         "&ehl accuracy = 0.1 profiles = .true. /\n&heat contact = 'none' /\n",

@@ -4,6 +4,7 @@ import csv
 import io
 import os
 import pty
+import re
 import subprocess
 import time
 
@@ -327,6 +328,26 @@ def test_solved_contacts_say_which_groups_and_loads_they_leave_out(camroller, tm
         done(camroller, "ehl", ROOT / f"decks/{deck}.nml", "-o", path, "--set", "sweep.values_1=900")
         with h5py.File(path) as file:
             assert words in file["run/warnings"][0].decode()
+
+
+SMOOTH = re.sub(r"&asperity.*?^/$", "", (ROOT / "decks/numerical_film.nml").read_text(), flags=re.DOTALL | re.MULTILINE)
+
+
+@pytest.mark.parametrize(("options", "words"), [
+    ((300, 60, "lubricant.pressure_law=barus"), "the law 'barus' of viscosity over pressure holds to about 0.1 GPa"),
+    ((30, 95), "the film between cam and roller is below 0.1 of the roughness for 100 % of the cycle"),
+    ((900, 60, "traction.limiting_coefficient=0.003"), "traction.limit = 'mean' holds the shear of the film to 0.003 of the load"),
+    ((300, 60, "film.range_policy=stop"), "film.range_policy=stop has no effect on solved contacts"),
+    ((300, 60, "film.law=moes"), "has no effect in a run: it is used without &ehl, or with ehl.profiles = .true., or by 'camroller ehl'")])
+def test_solved_contacts_have_the_remarks_on_films_of_a_run(camroller, tmp_path, options, words):
+    speed, temperature, *others = options
+    (tmp_path / "smooth.nml").write_text(SMOOTH)
+    done = [camroller, "ehl", tmp_path / "smooth.nml", "-o", tmp_path / "x.h5"]
+    for option in (f"sweep.values_1={speed}", f"sweep.values_2={temperature}", *others):
+        done += ["--set", option]
+    result = subprocess.run(done, capture_output=True, text=True, check=True)
+    assert words in result.stderr
+    assert ("below 0.1 of the roughness" in result.stderr) == (speed == 30)
 
 
 @pytest.mark.parametrize(("deck", "words"), [("tribofilm", "between new surfaces"), ("dynamics", "at the speeds of a rigid one")])

@@ -28,8 +28,8 @@ contains
       ]
    end subroutine collect_ehl_limits
 
-   !> Martin's film, h = 4.895 eta u R/w: elasticity and viscosity under pressure make the solved one 0.3 % thicker here (a solution on
-   !> 601 nodes of its own), and nodes that end where the film of a fifteenth of the largest load has its inlet 4 % thinner.
+   !> Martin's film, h = 4.895 eta u R/w: elasticity and viscosity under pressure make the solved one 0.3 % thicker here (by another
+   !> program, on 601 nodes), and nodes that end where a fiftieth of the largest load has its inlet make it 4 % thinner.
    subroutine test_light_load(error)
       type(error_type), allocatable, intent(out) :: error
       ! Accuracy of 129 nodes and of steps, twice [-]
@@ -60,9 +60,9 @@ contains
       end associate
    end subroutine test_light_load
 
-   !> Power that the contact takes, traction times sliding speed and resistance times the sum of both surfaces' speeds, at each angle
-   !> of a cycle of steady films with a limit of the shear too low to turn the roller: it runs backwards nearly as fast as the cam's
-   !> surface runs, where hardly any oil is drawn in.
+   !> Power that the contact takes, traction times sliding speed and resistance times the sum of both surfaces' speeds, at each
+   !> angle of a cycle of steady films with a limit of the shear too low to turn the roller: it runs backwards nearly as fast as the
+   !> cam's surface runs, where hardly any oil is drawn in.
    subroutine test_backward(error)
       type(error_type), allocatable, intent(out) :: error
       type(model_t) :: model
