@@ -29,6 +29,10 @@ LONGEST_TITLE = 100  # characters of a file's title beside those of others
 LIST = "case"  # stands for the swept keys where each case has a label of its own
 
 
+class TooMany(ResultError):
+    """A list has more cases than a figure can hold."""
+
+
 @dataclass(frozen=True)
 class Entry:
     """One case of one file and its place: value of the colour key, values of the panel keys."""
@@ -142,10 +146,10 @@ class Layout:
         return self.colour_key == LIST and len(self.colours) > 1
 
     def refuse_too_many(self, most=MOST_LISTED):
-        """ResultError where a list has more cases than a figure can hold."""
+        """TooMany where a list has more cases than a figure can hold."""
         if self.is_list and len(self.colours) > most:
-            raise ResultError(f"{len(self.colours)} cases that are no grid are too many for this figure, which holds {most}: "
-                              f"choose with --cases 0,3,7-9 or --cases {_example(self)}; plot_sweep.py draws summaries of all")
+            raise TooMany(f"{len(self.colours)} cases that are no grid are too many for this figure, which holds {most}: "
+                          f"choose with --cases 0,3,7-9 or --cases {_example(self)}; plot_sweep.py draws summaries of all")
 
     def some_colours(self, most):
         """At most so many values of the colour key; all of a list."""
