@@ -131,8 +131,9 @@ class Result:
             raise without_results(self.path, failed[0][1])
 
     def scalar(self, name):
-        """A scalar of the summary for each case; ResultError where there is none, or not one value for each case."""
+        """A scalar of the summary for each case; ResultError where it is not there, as where no case has a result, or is no such list."""
         if name not in self.summary:
+            self.need_results()
             near = difflib.get_close_matches(name, self.summary, 3) or [other for other in self.summary if name in other][:3]
             raise ResultError(f"{self.path}: no scalar {name} in the summary" + (f"; there is {', '.join(near)}" if near else ""))
         quantity = self.summary[name]
