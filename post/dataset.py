@@ -26,9 +26,9 @@ def open_dataset(path, with_series=True):
     groups = [(result.summary, "", ["case"]), (result.series, "", ["case", "cam_angle"]), (result.measured, "measured_", ["case"]),
               (result.history, "running_in_", ["case", "running_time_part"]), (result.turns, "turns_", ["case", "turn"])]
     cases = xarray.Dataset(
-        {prefix + name: (dimensions, quantity.values, _attributes(quantity))
-         for quantities, prefix, dimensions in groups for name, quantity in quantities.items()
-         if np.ndim(quantity.values) == len(dimensions) and len(quantity.values) == result.cases},
+        {prefix + name: (dimensions, values, _attributes(quantity))
+         for quantities, prefix, dimensions in groups for name, quantity in quantities.items() for values in [quantity.values]
+         if np.ndim(values) == len(dimensions) and len(values) == result.cases},
         {names[key]: ("case", quantity.values, _attributes(quantity)) for key, quantity in result.sweep.items()},
         {"title": result.title, "deck": result.deck_text, **result.run})
     if result.series:

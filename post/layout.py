@@ -12,7 +12,7 @@ import re
 from matplotlib import colormaps
 import numpy as np
 
-from cases import lost_contact, lost_contact_words, missing_words, status_of
+from cases import failure_lines, lost_contact, lost_contact_words, missing_words, not_computed_words, status_of
 from quantities import SPEED, add_derived, given_shaft
 from read import ResultError
 from units import WORDS, bare_name, distinct_texts, key_words, unit_words, with_unit
@@ -27,6 +27,10 @@ TAKEN = {"largest": np.max, "smallest": np.min, "mean": np.mean}  # of the value
 POINT = (SPEED, "operating_point.oil_temperature_degC")
 LONGEST_TITLE = 100  # characters of a file's title beside those of others
 LIST = "case"  # stands for the swept keys where each case has a label of its own
+
+
+class TooMany(ResultError):
+    """A list has more cases than a figure can hold."""
 
 
 @dataclass(frozen=True)
@@ -99,11 +103,20 @@ class Layout:
                 continue
             kept = [entry for entry in self.entries if entry.file != number or entry.case in there]
             if not any(entry.file == number for entry in kept):
-                raise ResultError(f"{result.path}: no series of these cases in the file; it has those of "
-                                  f"{some_numbers(sorted(there)) or 'none'}: 'series' and 'series_cases' in &sweep choose")
+                raise ResultError(f"{result.path}: {'; '.join(self._reasons_without_series(number, sorted(there)))}")
             self.entries = kept
             remarks.append(f"{result.path}: series of {len(there)} of {result.cases} cases are in the file; only these are drawn")
         return remarks
+
+    def _reasons_without_series(self, number, there):
+        """Why none of the chosen cases of a file has series: they were not computed or failed, or only others were to be kept."""
+        result, chosen = self.results[number], self.chosen[number]
+        reasons = [words for words in (not_computed_words(status_of(result)[chosen]), *failure_lines(result, chosen)) if words]
+        if set(chosen) <= self.failed[number]:
+            return reasons
+        which = "the other chosen" if reasons else "these"
+        return [*reasons, f"no series of {which} cases in the file; it has those of {some_numbers(there) or 'none'}: "
+                "'series' and 'series_cases' in &sweep choose"]
 
     def _is_grid(self):
         """Is every value of the first key there with every panel, once in a file?"""
@@ -142,10 +155,10 @@ class Layout:
         return self.colour_key == LIST and len(self.colours) > 1
 
     def refuse_too_many(self, most=MOST_LISTED):
-        """ResultError where a list has more cases than a figure can hold."""
+        """TooMany where a list has more cases than a figure can hold."""
         if self.is_list and len(self.colours) > most:
-            raise ResultError(f"{len(self.colours)} cases that are no grid are too many for this figure, which holds {most}: "
-                              f"choose with --cases 0,3,7-9 or --cases {_example(self)}; plot_sweep.py draws summaries of all")
+            raise TooMany(f"{len(self.colours)} cases that are no grid are too many for this figure, which holds {most}: "
+                          f"choose with --cases 0,3,7-9 or --cases {_example(self)}; plot_sweep.py draws summaries of all")
 
     def some_colours(self, most):
         """At most so many values of the colour key; all of a list."""

@@ -35,7 +35,7 @@ import numpy as np  # noqa: E402
 
 from cases import lost_contact, lost_contact_words, missing_words, status_of  # noqa: E402
 from command import DPI, ONCE, names_of, run, save_figure, take_over  # noqa: E402
-from layout import TAKEN, groups_over, is_one_of, key_meant, thin_out  # noqa: E402
+from layout import TAKEN, groups_over, is_one_of, key_meant, some_numbers, thin_out  # noqa: E402
 from quantities import SPEED, given_shaft  # noqa: E402
 from read import ResultError, fills_grid, read_result  # noqa: E402
 from units import distinct_texts, fitting_unit, key_words, number, shaft_words, unit_words, with_unit  # noqa: E402
@@ -47,6 +47,7 @@ MOST_COLOURS = 60
 WIDE = 100.0  # largest over smallest value of a quantity from which on its axis is logarithmic
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
 NEAR = 1e-3  # of the largest value: where all are as near as this, numbers along a lower axis are too long for more than its ends
+FREE_TEXTS = ("table", "title")  # keys of the deck whose values are no names of choices
 MOST_WORDS = 24  # values of a key that the axis of a map can name
 ROUNDING = 1e-9  # part of a quantity within which its values are the same
 CONDITION = re.compile(r"^\s*([\w.]+)\s*(?:(<=|>=|<|>)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)|=\s*([^=<>]+?))\s*$")
@@ -174,7 +175,8 @@ class Sweep:
     def label_value(self, key, value):
         """A value of a key or a quantity in words."""
         if key in self.words:
-            return str(self.words[key][int(value)]).replace("_", " ")
+            word = str(self.words[key][int(value)])
+            return word if key.rpartition(".")[2] in FREE_TEXTS else word.replace("_", " ")
         if key in self.quantities:
             return number(value)
         values = np.unique(self.keys[key][0])
@@ -243,20 +245,20 @@ def draw_curves(sweep):
     order = sorted(lengths, key=lambda key: (key not in sweep.words, lengths[key]), reverse=True)
     axis, curve = order[0], (order[1] if len(order) > 1 else None)
     chosen = _where_others_are_first(sweep, order[:2])
+    there = np.unique(sweep.keys[curve][0][chosen & sweep.has_value()]) if curve else [None]
+    is_many = len(there) > MOST_CURVES and curve not in sweep.words
+    steps = thin_out(there, MOST_COLOURS if is_many else MOST_CURVES)
+    scale = _colour_scale(sweep, curve) if is_many else None
     figure = Figure(figsize=(5.2 * len(sweep.quantities), 4.0), layout="constrained")
     for axes, name in zip(_row(figure, len(sweep.quantities)), sweep.quantities):
-        values, label = sweep.quantities[name]
-        steps = np.unique(sweep.keys[curve][0]) if curve else [None]
-        is_many = len(steps) > MOST_CURVES and curve not in sweep.words
-        steps = thin_out(steps, MOST_COLOURS if is_many else MOST_CURVES)
-        scale = _colour_scale(sweep, curve) if is_many else None
+        values = sweep.quantities[name][0]
         for number, step in enumerate(steps):
             here = chosen if step is None else chosen & (sweep.keys[curve][0] == step)
             order_here = np.argsort(sweep.keys[axis][0][here], kind="stable")
             place = scale(step) if is_many else 0.9 * number / max(1, len(steps) - 1)
             axes.plot(sweep.keys[axis][0][here][order_here], values[here][order_here], marker="o", markersize=3,
                       linewidth=0.0 if axis in sweep.words else 1.3, color=matplotlib.colormaps["viridis"](place),
-                      label=None if step is None else sweep.label_value(curve, step))
+                      label=sweep.label_value(curve, step) if curve and np.isfinite(values[here]).any() else None)
             lost = here & sweep.is_drawn_lost([name])
             if lost.any():
                 axes.plot(sweep.keys[axis][0][lost], values[lost], color=matplotlib.colormaps["viridis"](place), **CIRCLE)
@@ -265,13 +267,19 @@ def draw_curves(sweep):
         if is_many:
             figure.colorbar(ScalarMappable(scale, "viridis"), ax=axes, label=sweep.keys[curve][1],
                             format=PLAIN if curve in sweep.logarithmic else None)
-        elif curve:
+        elif axes.get_legend_handles_labels()[0]:
             axes.legend(title=sweep.keys[curve][1], fontsize=7, title_fontsize=7, frameon=False)
-    count = sweep.lengths()[curve] if curve else 0
-    most = MOST_COLOURS if curve and curve not in sweep.words else MOST_CURVES
-    _note(figure, sweep, order[:2], [f"{most} of {count} values of {sweep.keys[curve][1]} shown"] if count > most else [],
+    words = [f"{len(steps)} of {sweep.lengths()[curve]} values of {sweep.keys[curve][1]} shown"] if len(steps) < len(there) else []
+    _note(figure, sweep, order[:2], words if is_many or not curve else [*words, *_words_without_result(sweep, curve, chosen)],
           " (open circles)")
     return figure
+
+
+def _words_without_result(sweep, key, chosen):
+    """Values of a key with which none of some cases has a result."""
+    values = sweep.keys[key][0]
+    bare = [sweep.label_value(key, value) for value in np.unique(values[chosen]) if sweep.failed[chosen & (values == value)].all()]
+    return [f"no case of {sweep.keys[key][1]} = {some_numbers(bare)} has a result"] if bare else []
 
 
 def draw_scatter(sweep):

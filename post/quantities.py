@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from read import Quantity, ResultError
+from read import ResultError, Series
 from units import factor
 
 SPEED = "operating_point.speed_rpm"  # of the shaft that `engine.given_speed` names, where there is an engine
@@ -103,19 +103,26 @@ def add_derived(result):
     series = result.series
     if "contact_load" not in series:
         return
-    load = series["contact_load"].values
-    touching = np.where(load > 0.0, load, np.nan)
+
+    def over_load(name):
+        load = series["contact_load"].values
+        return series[name].values / np.where(load > 0.0, load, np.nan)
+
     if "friction_contact" in series:
-        series["friction_coefficient"] = Quantity(series["friction_contact"].values / touching, "1",
-                                                  "friction of the contact relative to its load")
+        series["friction_coefficient"] = Series(lambda: over_load("friction_contact"), "1",
+                                                "friction of the contact relative to its load")
     if "asperity_load" in series:
-        series["asperity_load_share"] = Quantity(series["asperity_load"].values / touching, "1", "part of the load on asperities")
+        series["asperity_load_share"] = Series(lambda: over_load("asperity_load"), "1", "part of the load on asperities")
     _add_wear(series)
     if "valve_velocity" in series and result.value_of(SPEED, 0) is not None:
-        values = series["valve_velocity"].values
-        slope = (np.roll(values, -1, axis=1) - np.roll(values, 1, axis=1)) / np.radians(2.0 * 360.0 / values.shape[1])
         speed = camshaft_speed(result) * np.pi / 30.0  # [rad/s]
-        series.setdefault("valve_acceleration", Quantity(slope * speed[:, None], "m/s2", "acceleration of the valve"))
+
+        def acceleration():
+            values = series["valve_velocity"].values
+            slope = (np.roll(values, -1, axis=1) - np.roll(values, 1, axis=1)) / np.radians(2.0 * 360.0 / values.shape[1])
+            return slope * speed[:, None]
+
+        series.setdefault("valve_acceleration", Series(acceleration, "m/s2", "acceleration of the valve"))
 
 
 def given_shaft(result):
@@ -142,16 +149,20 @@ def _add_wear(series):
         return
     # A case with &wear has this and the next one itself
     largest = series.get("axial_pressure_max", peak)  # along the roller, where the deck gives its profile
-    series.setdefault("subsurface_shear_stress", Quantity(LARGEST_SHEAR * largest.values, "Pa",
-                                                          "largest shear stress below the surface, without traction"))
+    series.setdefault("subsurface_shear_stress", Series(lambda: LARGEST_SHEAR * largest.values, "Pa",
+                                                        "largest shear stress below the surface, without traction"))
     if half is None or slide is None or speed is None:
         return
-    with np.errstate(invalid="ignore", divide="ignore"):
-        turns = np.abs(slide.values) / np.abs(speed.values)
-    series.setdefault("sliding_distance", Quantity(2.0 * half.values * turns, "m", "sliding distance of a place on the cam in a passage"))
+
+    def turns():
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.abs(slide.values) / np.abs(speed.values)
+
+    series.setdefault("sliding_distance", Series(lambda: 2.0 * half.values * turns(), "m",
+                                                 "sliding distance of a place on the cam in a passage"))
     if "asperity_load_share" in series:
-        series["wear_product"] = Quantity(0.5 * np.pi * peak.values * half.values * turns * series["asperity_load_share"].values, "N/m",
-                                          "depth of wear of a place on the cam in a turn over the specific wear rate")
+        series["wear_product"] = Series(lambda: 0.5 * np.pi * peak.values * half.values * turns() * series["asperity_load_share"].values,
+                                        "N/m", "depth of wear of a place on the cam in a turn over the specific wear rate")
 
 
 def values_of(layout, entry, name, unit):

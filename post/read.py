@@ -8,12 +8,14 @@
     result.value_of("operating_point.speed_rpm", case=0)
 
 Everything else (units, names, the deck and how the file was made) comes with it; nothing is
-converted here, so all series are in SI units. A file of a sweep may have series of few cases or of none. Needs h5py and numpy.
+converted here, so all series are in SI units. A file of a sweep may have series of few cases or of none. Series are read from the
+file when their values are asked for. Needs h5py and numpy.
 """
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 import difflib
+from functools import partial
 import os
 from pathlib import Path
 import re
@@ -27,6 +29,7 @@ import numpy as np
 LONGEST_READ = 60.0  # [s]
 NONE_AT_ZERO = re.compile(r"seating_speed$|^min_(.*_)?film_(thickness_min|thickness_central|ratio)$")  # scalars: 0 is no value
 SLOWEST_READ = 1e7  # bytes that are read in a second at least
+MOST_HELD = 5e7  # bytes of series that are held for a second use, beside the last one
 
 
 #: What else the program writes than results: a group of it, its name, what is in it, and the script that reads it
@@ -46,6 +49,28 @@ class Quantity:
     values: np.ndarray
     units: str = ""
     long_name: str = ""
+
+
+class Series:
+    """A quantity over the cam angle, (case, cam_angle), whose values are read or computed when they are asked for: a file of a sweep
+    may have more series than there is memory. Those of the last uses are held."""
+
+    _held = {}
+
+    def __init__(self, source, units="", long_name=""):
+        self._source, self.units, self.long_name = source, units, long_name
+
+    @property
+    def values(self):
+        """The values, not to be changed."""
+        values = self._held.pop(self, None)
+        values = self._source() if values is None else values
+        self._held[self] = values
+        spare = sum(other.nbytes for other in self._held.values()) - MOST_HELD
+        for other in list(self._held)[:-1]:
+            if spare > 0:
+                spare -= self._held.pop(other).nbytes
+        return values
 
 
 @dataclass
@@ -106,8 +131,9 @@ class Result:
             raise without_results(self.path, failed[0][1])
 
     def scalar(self, name):
-        """A scalar of the summary for each case; ResultError where there is none, or not one value for each case."""
+        """A scalar of the summary for each case; ResultError where it is not there, as where no case has a result, or is no such list."""
         if name not in self.summary:
+            self.need_results()
             near = difflib.get_close_matches(name, self.summary, 3) or [other for other in self.summary if name in other][:3]
             raise ResultError(f"{self.path}: no scalar {name} in the summary" + (f"; there is {', '.join(near)}" if near else ""))
         quantity = self.summary[name]
@@ -118,8 +144,11 @@ class Result:
     def cases_with_series(self):
         """Cases whose series are in the file; a sweep may keep them of a few cases only."""
         filled = np.zeros(self.cases, dtype=bool)
+        failed = [case for case, _ in self.failed_cases()]
         for quantity in self.series.values():
             filled |= np.isfinite(quantity.values).any(axis=1)
+            if np.delete(filled, failed).all():
+                break
         return np.flatnonzero(filled).tolist()
 
     def is_grid(self):
@@ -212,7 +241,7 @@ def text_columns(group):
 
 
 def read_result(path, with_series=True):
-    """Read a result file into memory; raise ResultError with one clear line if it is not one."""
+    """Read a result file, its series when they are asked for; raise ResultError with one clear line if it is not one."""
     path = Path(path)
     with opened(path) as file:
         return _read(path, file, with_series)
@@ -233,7 +262,7 @@ def _read(path, file, with_series):
     deck_text = text_of(file["deck/text"][()]) if "deck/text" in file else ""
     deck = _datasets(file, "deck/values")
     sweep = _datasets(file, "sweep")
-    cases = _count_cases(path, file, series)
+    cases = _count_cases(path, file)
     measured = _datasets(file, "measured")
     for key, quantity in (*sweep.items(), *measured.items()):
         if np.shape(quantity.values) != (cases,):
@@ -250,22 +279,27 @@ def _read_series(path, file):
     if "cam_angle" not in file["series"]:
         return np.zeros(0), {}
     angle = np.asarray(file["series/cam_angle"][()], dtype=float)
-    series = {name: _quantity(data) for name, data in file["series"].items() if name != "cam_angle"}
     if angle.ndim != 1 or angle.size == 0:
         raise ResultError(f"{path}: /series/cam_angle is not a list of angles")
-    for name, quantity in series.items():
-        if quantity.values.ndim != 2 or quantity.values.shape[1] != angle.size or quantity.values.dtype.kind not in "fiu":
+    found = {name: data for name, data in file["series"].items() if name != "cam_angle"}
+    for name, data in found.items():
+        if data.ndim != 2 or data.shape[1] != angle.size or data.dtype.kind not in "fiu":
             raise ResultError(f"{path}: series {name} does not have the dimensions (case, cam_angle)")
-    if len({quantity.values.shape[0] for quantity in series.values()}) > 1:
+    if len({data.shape[0] for data in found.values()}) > 1:
         raise ResultError(f"{path}: series with different numbers of cases")
-    return angle, series
+    return angle, {name: Series(partial(_values, path, data.name), *_words(data)) for name, data in found.items()}
 
 
-def _count_cases(path, file, series):
+def _values(path, name):
+    """All values of a dataset."""
+    with opened(path) as file:
+        return file[name][()]
+
+
+def _count_cases(path, file):
     """Number of cases, from the series, else from what has one value for each case."""
-    shapes = [quantity.values.shape for quantity in series.values()][:1]
+    shapes = [data.shape for data in file["series"].values() if isinstance(data, h5py.Dataset) and data.ndim == 2]
     shapes += [file[name].shape for name in ("summary/status", "case") if name in file and isinstance(file[name], h5py.Dataset)]
-    shapes += [data.shape for data in file["series"].values() if isinstance(data, h5py.Dataset) and data.ndim == 2]
     if not shapes or not shapes[0] or shapes[0][0] < 1:
         raise ResultError(f"{path}: no cases in it")
     return shapes[0][0]
@@ -295,7 +329,12 @@ def _quantity(data):
     values = data[()]
     if h5py.check_string_dtype(data.dtype) is not None:
         values = text_of(values) if np.ndim(values) == 0 else np.array([text_of(value) for value in values])
-    return Quantity(values, text_of(data.attrs.get("units", "")), text_of(data.attrs.get("long_name", "")))
+    return Quantity(values, *_words(data))
+
+
+def _words(data):
+    """Unit and meaning of a dataset."""
+    return text_of(data.attrs.get("units", "")), text_of(data.attrs.get("long_name", ""))
 
 
 def text_of(value):

@@ -23,9 +23,9 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
 from cases import failure_lines, failures, missing_words, status_of  # noqa: E402
 from command import run, words_as_they_are, write_text  # noqa: E402
 from figures import draw  # noqa: E402
-from layout import Layout  # noqa: E402
+from layout import Layout, TooMany  # noqa: E402
 from quantities import Missing  # noqa: E402
-from read import ResultError, opened, read_result, text_of  # noqa: E402
+from read import opened, read_result, text_of  # noqa: E402
 from table import column_of, keys_of, swept_texts, usual_columns, worst_of_lobes  # noqa: E402
 from units import key_words, unit_words, with_unit  # noqa: E402
 
@@ -130,7 +130,7 @@ def figures_of(result):
     for name in SHOWN:
         try:
             figure = draw(name, layout)
-        except (Missing, ResultError):
+        except (Missing, TooMany):
             continue
         drawing = io.BytesIO()
         words_as_they_are(figure)

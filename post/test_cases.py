@@ -223,7 +223,8 @@ def test_no_case_with_a_result_is_an_error(zipped, capsys):
     with h5py.File(zipped, "a") as file:
         file["summary/status"] = np.array([3, 3, 3])
         file["run/messages"] = ["nothing converges"] * 3
-    for script, arguments in ((main, []), (report.main, []), (table.main, []), (plot_sweep.main, [])):
+    for script, arguments in ((main, []), (report.main, []), (table.main, []), (table.main, ["--columns", "none_of_it"]),
+                              (plot_sweep.main, [])):
         assert run(lambda script=script, arguments=arguments: script([str(zipped), *arguments]), "script.py") == 2
         assert "no case has a result: nothing converges\n" in capsys.readouterr().err
 
@@ -258,7 +259,15 @@ def test_of_a_sweep_with_few_series_these_are_drawn(tmp_path, capsys):
     assert main([str(path), "--figure", "film"]) == 0
     assert "series of 2 of 9 cases" in capsys.readouterr().out
     assert main([str(path), "--figure", "film", "--cases", "2"]) == 2
-    assert "it has those of 1, 5" in capsys.readouterr().err
+    assert "no series of these cases in the file; it has those of 1, 5" in capsys.readouterr().err
+    with h5py.File(path, "a") as file:
+        file["summary/status"][...] = [0, 0, 0, 3, 0, 0, 0, 3, -1]
+        file["run/messages"] = ["", "", "", "case 3: no balance", "", "", "", "case 7: no film", "case 8: not computed"]
+    failed = "sweep.h5: 1 of {} cases was not computed; case 3 has no result: no balance; case 7 has no result: no film"
+    for cases, words in (("3,7,8", failed.format(3) + "\n"),
+                         ("2,3,7,8", failed.format(4) + "; no series of the other chosen cases in the file; it has those of 1, 5")):
+        assert main([str(path), "--figure", "film", "--cases", cases]) == 2
+        assert words in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name, count", [("film", 3), ("overview", 24), ("drive_torque", 9)])

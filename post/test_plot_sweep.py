@@ -162,6 +162,15 @@ def test_every_figure_becomes_a_file(grid, tmp_path, figure, capsys):
     assert (tmp_path / f"out/grid_{figure}.png").stat().st_size > 1000
 
 
+def test_a_legend_has_tables_by_their_paths_and_only_those_with_a_result(tmp_path):
+    tables = np.array(["tables/a_b.txt", "tables/none.txt", "c_d"], dtype=h5py.string_dtype()).repeat(2).astype(object)
+    columns = {"lift.table": (tables, "1"), "operating_point.speed_rpm": ([600.0, 900.0] * 3, "rpm")}
+    path = write(tmp_path / "tables.h5", columns, np.array([1.0, 2.0, np.nan, np.nan, 3.0, 4.0]), [0, 0, 3, 3, 0, 0])
+    figure = draw_curves(Sweep(path, ["mean_torque_drive"]))
+    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["c_d", "tables/a_b.txt"]
+    assert "no case of lift table = tables/none.txt has a result, 2 of 6 cases have no result" in figure.get_suptitle().replace("\n", " ")
+
+
 @pytest.mark.parametrize(("arguments", "words"), [
     (["--quantity", "torque_drive"], "there is mean_torque_drive"),
     (["--figure", "map"], "a map needs a grid"),

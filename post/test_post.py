@@ -12,12 +12,14 @@ import numpy as np
 import pytest
 
 import plot
+import report
+from command import run
 from figures import FIGURES, draw
 from layout import Layout, chosen_cases, thin_out
 from parts import closed, event_window, set_values_axis
 from plot import main
 from quantities import CURVES, LARGEST_SHEAR, SOURCES, Missing, values_of
-from read import ResultError, read_result
+from read import ResultError, Series, _values, read_result
 from table import COLUMNS
 
 SPEED, OIL = "operating_point.speed_rpm", "operating_point.oil_temperature_degC"
@@ -423,6 +425,43 @@ def test_a_file_of_another_command_names_its_script(tmp_path, capsys, group, wor
             file["summary/status"] = np.zeros(2)
     assert main([str(tmp_path / "other.h5")]) == 2
     assert words in capsys.readouterr().err
+
+
+def test_only_series_that_are_drawn_are_read_and_few_are_held(nine, tmp_path, monkeypatch):
+    whole, read = plot_bytes(nine, tmp_path), []
+    monkeypatch.setattr("read.MOST_HELD", 0)
+    values_in = _values
+    monkeypatch.setattr("read._values", lambda path, name: read.append(name) or values_in(path, name))
+    assert plot_bytes(nine, tmp_path) == whole
+    assert len(Series._held) == 1
+    del read[:]
+    assert main([str(nine), "--figure", "load", "--cases", "1,2"]) == 0
+    with h5py.File(nine) as file:
+        assert {"/series/contact_load", "/series/valve_lift"} <= set(read) and len(set(read)) <= 3 < len(file["series"])
+
+
+def plot_bytes(path, folder):
+    """Contents of two figures of a file."""
+    for name in ("overview", "friction_coefficient"):
+        assert main([str(path), "--figure", name, "--output", str(folder), "--dpi", "40"]) == 0
+    return [drawn.read_bytes() for drawn in sorted(folder.glob("nine_*.png"))]
+
+
+@pytest.mark.parametrize("script", [main, report.main])
+def test_a_damaged_series_is_told_and_not_left_out(tmp_path, capsys, script):
+    path = write_result(tmp_path / "nine.h5")
+    with h5py.File(path, "a") as file:
+        values = file["series/slip_ratio"][()]
+        del file["series/slip_ratio"]
+        data = file.create_dataset("series/slip_ratio", data=values, chunks=values.shape, compression="gzip")
+        data.attrs["units"] = "1"
+        place = data.id.get_chunk_info(0).byte_offset
+    with path.open("r+b") as file:
+        file.seek(place)
+        file.write(b"?" * 40)
+    assert run(lambda: script([str(path)]), "script.py") == 2
+    assert f"{path}: cannot be read: " in capsys.readouterr().err
+    assert not path.with_suffix(".html").exists()
 
 
 def test_a_series_of_another_shape_is_refused(nine):
