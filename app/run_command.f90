@@ -21,7 +21,7 @@ module camroller_run_command
    use camroller_output_kind, only : output_kind_t
    use camroller_remarks, only : remarks_t
    use camroller_result_table, only : write_result_table
-   use camroller_stop_signal, only : heed_stop_signals
+   use camroller_stop_signal, only : heed_stop_signals, release_stop_signals
    use camroller_streams, only : print_lines, tell
    use camroller_sweep, only : merge_sweep, run_sweep
    use camroller_sweep_file, only : sweep_made, sweep_options_t, sweep_report_t, sweep_shard_done, sweep_was_complete
@@ -86,6 +86,8 @@ contains
       call start_console(console, config%is_quiet .or. team%rank /= 0, real(config%log_interval, wp))
       console%heeds_signals = .true.
       call run_sweep(deck, output_path(config, ".h5"), options_of(config), report, failure, console, team)
+      ! the others wait for the first one, which may still be told to stop
+      if (team%rank == 0) call release_stop_signals()
       call conclude(config, deck, console, report, failure, error)
    end subroutine sweep_deck
 
