@@ -69,6 +69,7 @@ contains
       if (.not. (allocated(error) .or. holds_contacts)) call choose_cases(sink%file, sweep_size(deck%sweep), runs, error)
       if (.not. allocated(error)) call set_threads(loop, config%threads, error)
       if (.not. allocated(error)) then
+         sink%sweep = deck%sweep
          call heed_stop_signals()
          call start_console(console, config%is_quiet, real(config%log_interval, wp))
          console%heeds_signals = .true.
