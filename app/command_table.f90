@@ -100,7 +100,9 @@ contains
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
       call add(commands, "rerun", "FILE.h5", "compute a file again and compare every bit", &
-         & "Compute the cases of a result file (of 'ehl' too) again from the deck stored in it, and compare every bit."//n// &
+         & "Compute the cases of a result file (of 'ehl' too) again from the deck stored in it, and compare every bit"//n// &
+         & "of them: swept values, status, messages, scalars, series, histories, profiles. What repeats the deck,"//n// &
+         & "/deck/values and /deck/remarks, and rows of a table of cases, which are the input, are not compared."//n// &
          & "Reports what differs and by how much, and which build made the file. The exit code is 7 where something differs.")
       call add_option(commands, "--threads", "-j", "N", meaning_threads)
       call add_option(commands, "--log-every", "", "S", meaning_log, excluded="--quiet")

@@ -13,7 +13,7 @@ module camroller_console
    use camroller_kinds, only : wp
    use camroller_number_text, only : counted, number_text, fixed_text, integer_text
    use camroller_monitor, only : monitor_t
-   use camroller_stop_signal, only : is_stop_wanted, release_stop_signals
+   use camroller_stop_signal, only : is_stop_wanted
    use camroller_streams, only : tell
    implicit none
    private
@@ -156,15 +156,13 @@ contains
       end if
    end function time_in_words
 
-   !> Take the line away; signals end the program again.
+   !> Take the line away.
    subroutine end_cases(self)
       !> The console
       class(console_t), intent(inout) :: self
 
       if (self%is_shown) call tell(achar(13)//repeat(" ", width)//achar(13))
       self%is_shown = .false.
-      if (self%heeds_signals) call release_stop_signals()
-      self%heeds_signals = .false.
    end subroutine end_cases
 
    !> Time since the start, in words.

@@ -98,7 +98,7 @@ contains
       call write_friction(lines, text)
       if (.not. (config%is_quiet .or. allocated(unheard))) call print_lines(text//new_line("a")//path// &
          & ": pressure, film and friction in /ehl", unheard)
-      if (.not. config%is_quiet) call tell_remarks(writer%tally%remarks, deck, .true.)
+      if (.not. config%is_quiet) call tell_remarks(writer%tally, deck, .true.)
       if (allocated(unheard)) call move_alloc(unheard, error)
       if (.not. allocated(error)) call conclude(writer%tally, error)
    end subroutine ehl_deck

@@ -31,7 +31,7 @@ module camroller_rerun_command
    use camroller_settings, only : take
    use camroller_sorting, only : find_order
    use camroller_streams, only : print_lines
-   use camroller_stop_signal, only : heed_stop_signals
+   use camroller_stop_signal, only : heed_stop_signals, release_stop_signals
    use camroller_table_file, only : read_heading, table_t
    use camroller_team, only : team_t
    use camroller_version, only : build_commit, names_sources
@@ -69,6 +69,7 @@ contains
       if (.not. (allocated(error) .or. holds_contacts)) call choose_cases(sink%file, sweep_size(deck%sweep), runs, error)
       if (.not. allocated(error)) call set_threads(loop, config%threads, error)
       if (.not. allocated(error)) then
+         sink%sweep = deck%sweep
          call heed_stop_signals()
          call start_console(console, config%is_quiet, real(config%log_interval, wp))
          console%heeds_signals = .true.
@@ -78,6 +79,7 @@ contains
             call compute_cases(loop, deck, runs, sink, alone, console, error)
          end if
          call console%end_cases()
+         call release_stop_signals()
       end if
       call discard_file(sink%file)
       if (allocated(error)) return

@@ -8,6 +8,7 @@ module camroller_run_command
    use camroller_error, only : error_t
    use camroller_blas_threads, only : check_blas_memory
    use camroller_case, only : case_t
+   use camroller_case_writer, only : tally_t
    use camroller_cli, only : config_t
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_console, only : console_t, seconds_since, start_console, tell_deck_remarks, add_number_remarks
@@ -15,13 +16,14 @@ module camroller_run_command
    use camroller_deck_files, only : list_deck_files
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_sweep, only : case_in_words, sweep_size
+   use camroller_deck_sweep_keys, only : series_choice_name
    use camroller_text_lines, only : line_t
    use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text
    use camroller_output_kind, only : output_kind_t
-   use camroller_remarks, only : remarks_t
    use camroller_result_table, only : write_result_table
-   use camroller_stop_signal, only : heed_stop_signals
+   use camroller_settings, only : find_value
+   use camroller_stop_signal, only : heed_stop_signals, release_stop_signals
    use camroller_streams, only : print_lines, tell
    use camroller_sweep, only : merge_sweep, run_sweep
    use camroller_sweep_file, only : sweep_made, sweep_options_t, sweep_report_t, sweep_shard_done, sweep_was_complete
@@ -82,12 +84,25 @@ contains
       if (.not. allocated(error)) call read_deck(deck, config%subject, config%overrides, error, columns)
       call add_number_remarks(deck, error, .false.)
       if (agreed_code(team, error) /= 0) return
-      if (team%rank == 0 .and. .not. config%is_quiet) call tell_deck_remarks(deck)
+      if (team%rank == 0 .and. .not. config%is_quiet) call tell_sweep_remarks(deck)
       call start_console(console, config%is_quiet .or. team%rank /= 0, real(config%log_interval, wp))
       console%heeds_signals = .true.
       call run_sweep(deck, output_path(config, ".h5"), options_of(config), report, failure, console, team)
+      ! the others wait for the first one, which may still be told to stop
+      if (team%rank == 0) call release_stop_signals()
       call conclude(config, deck, console, report, failure, error)
    end subroutine sweep_deck
+
+   !> Show remarks on the deck, and on what a sweep does not use of it.
+   subroutine tell_sweep_remarks(deck)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+
+      call tell_deck_remarks(deck)
+      if (.not. deck%settings%values(find_value(deck%settings, "output", "series"))%is_given) return
+      call tell("remark: output.series has no effect in a sweep, which writes the series that sweep.series says: '"// &
+         & series_choice_name(deck%settings)//"'"//new_line("a"))
+   end subroutine tell_sweep_remarks
 
    !> Make the one file of a sweep from its parts.
    subroutine merge_deck(config, error)
@@ -209,7 +224,7 @@ contains
             if (.not. allocated(error)) call print_lines(table, error)
          end if
          if (.not. allocated(error)) call print_lines(words, error)
-         call tell_remarks(report%tally%remarks, deck, config%command /= "merge")
+         call tell_remarks(report%tally, deck, config%command /= "merge")
       case (sweep_was_complete)
          call print_lines(words//" is there with all cases", error)
       case (sweep_shard_done)
@@ -221,9 +236,9 @@ contains
 
    !> Show remarks: of a case that is alone all but those that its deck has had before; of several cases the worst of each kind,
    !> with the number of cases.
-   subroutine tell_remarks(remarks, deck, has_told_deck)
-      !> The remarks
-      type(remarks_t), intent(in) :: remarks
+   subroutine tell_remarks(tally, deck, has_told_deck)
+      !> What happened to the cases
+      type(tally_t), intent(in) :: tally
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Has the command shown the remarks on the deck?
@@ -233,20 +248,20 @@ contains
       character(len=:), allocatable :: words, places
       integer :: i, k
 
-      if (.not. allocated(remarks%groups)) return
+      if (.not. allocated(tally%remarks%groups)) return
       call list_deck_remarks(deck, earlier)
-      do i = 1, size(remarks%groups)
-         associate (group => remarks%groups(i), cases => sweep_size(deck%sweep))
-            if (has_told_deck .and. cases == 1 .and. any([(earlier(k)%text == group%worst%text, k=1, size(earlier))])) cycle
+      do i = 1, size(tally%remarks%groups)
+         associate (group => tally%remarks%groups(i), cases => tally%cases - tally%missing)
+            if (has_told_deck .and. tally%cases == 1 .and. any([(earlier(k)%text == group%worst%text, k=1, size(earlier))])) cycle
             words = "remark"
-            if (cases > 1) words = "remark on "//integer_text(group%cases)//" of "//integer_text(cases)//" cases, the worst is "// &
-               & case_in_words(deck%sweep, group%case_number)
+            if (tally%cases > 1) words = "remark on "//integer_text(group%cases)//" of "//counted(cases, "case")// &
+               & ", the worst is "//case_in_words(deck%sweep, group%case_number)
             call tell(words//": "//group%worst%text//new_line("a"))
          end associate
       end do
       places = ""
       if (size(earlier) > 0) places = " and /deck/remarks"
-      if (size(remarks%groups) > 0) places = places//" and /run/warnings"
+      if (size(tally%remarks%groups) > 0) places = places//" and /run/warnings"
       if (places /= "") call tell("all remarks are in"//places(5:)//" of the result file"//new_line("a"))
    end subroutine tell_remarks
 

@@ -12,7 +12,7 @@ module camroller_sweep_cost
    use camroller_case_record, only : case_words
    use camroller_deck, only : deck_t, make_sweep_case
    use camroller_deck_document, only : echo_t, get_echo
-   use camroller_deck_sweep, only : sweep_size
+   use camroller_deck_sweep, only : sweep_size, sweep_t
    use camroller_deck_sweep_keys, only : series_all, series_choice, series_chosen, series_none
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
@@ -33,6 +33,8 @@ module camroller_sweep_cost
    real(wp), parameter :: longest_trial = 1.0_wp
    !> Number, megabyte, and what each thread keeps of cases that it has not handed over yet [byte]
    real(wp), parameter :: number_size = 8.0_wp, megabyte = 1.0e6_wp, thread_size = 8.0e6_wp
+   !> Status and number of a case, and how often a value that varies is held when it is written [byte], [-]
+   real(wp), parameter :: case_size = 8.0_wp, copies = 2.0_wp
    !> What a key of the deck, a scalar or a series takes in a result file besides its numbers [byte]
    real(wp), parameter :: entry_size = 740.0_wp
 
@@ -66,7 +68,7 @@ contains
       integer :: series, cases, cores
       type(echo_t) :: echo
       ! Of the sweep, with the series of every case; what a file of either has whatever the number of cases [byte]
-      real(wp) :: space, space_with_series, fixed, fixed_with_series
+      real(wp) :: space, space_with_series, fixed, fixed_with_series, memory
 
       series = series_choice(deck%settings)
       call try_cases(deck, series /= series_none, cost)
@@ -89,12 +91,28 @@ contains
       fixed = entry_size*(size(echo%keys) + cost%scalars) + len(deck%text)
       fixed_with_series = fixed + entry_size*cost%series
       if (series /= series_none) fixed = fixed_with_series
-      text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on disk about "// &
+      memory = peak_memory() + cores*thread_size + cases*(case_size + copies*widest_value(deck%sweep))
+      text = text//"! memory about "//megabytes(memory)//"; on disk about "// &
          & megabytes(space)//" in parts while it runs, and "//megabytes(space + fixed)//" more for the result file at the end"// &
          & new_line("a")
       text = text//"! 'camroller run' writes about "//megabytes(space_with_series + fixed_with_series)// &
          & " with the series of every case, 'camroller sweep' about "//megabytes(space + fixed)//new_line("a")
    end subroutine cost_in_words
+
+   !> Memory of the longest value that varies, which the result file has for all cases in one piece.
+   pure function widest_value(sweep) result(bytes)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Memory [byte]
+      real(wp) :: bytes
+
+      integer :: i
+
+      bytes = number_size
+      do i = 1, size(sweep%axes)
+         if (.not. sweep%axes(i)%is_numeric) bytes = max(bytes, real(sweep%axes(i)%values%width, wp))
+      end do
+   end function widest_value
 
    !> The n-th case of the sample that stands for all.
    pure function case_to_try(position, trials, cases) result(number)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Bring up Slurm on this machine alone and run sweeps with it: as an array job, in threads with a stop on the way, by MPI. The files
+# Bring up Slurm on this machine alone and run sweeps with it: as an array job, in threads and by MPI with a stop on the way. The files
 # are compared with those of one process. Everything is in a folder of its own and is taken down again.
 #
 # Usage: slurm/one_node.sh      as root after `make build mpi`; needs slurmctld, slurmd, slurm-client and munge, which it installs
@@ -159,17 +159,17 @@ for one, other in zip(content(sys.argv[1]), content(sys.argv[2]), strict=True):
         sys.exit(f'{one} is not {other}'[:2000])" "$1" "$2"
 }
 
-stop_when_begun() {
+stop_when_begun() { # result file
     local part
     for _ in $(seq 400); do
-        part=$(find "$folder" -name 'node.h5.part-*' -size +3k)
+        part=$(find "$folder" -name "$1.part-*" -size +3k)
         [ -n "$part" ] && timeout 10 scancel --batch --signal=TERM "$job" && return
         sleep 0.05
     done
     return 1
 }
 
-requeued() { grep -qs "queueing the job again" "$folder"/job-*; }
+requeued() { grep -qs "queueing the job again" "$folder/job-$job"-*; }
 
 trap stop_slurm EXIT
 trap 'fail "stopped"' TERM INT HUP
@@ -198,16 +198,18 @@ check "the array job gives the file of one process" same_file "$folder/deck-refe
 
 job=$(submit slurm/node.sh "$folder/long.nml" "$folder/node.h5" --quiet)
 say "job $job, told to stop by Slurm when it has begun to write"
-check "it begins and is told" stop_when_begun
+check "it begins and is told" stop_when_begun node.h5
 check "the job ends" wait_for_jobs 60
 check "it was queued again" requeued
 check "it gives the file of one process" same_file "$folder/long-reference.h5" "$folder/node.h5"
 
 if [ -x "$mpi_program" ]; then
-    job=$(LAUNCHER="mpirun --oversubscribe -n 2" submit --ntasks=2 slurm/nodes.sh "$folder/deck.nml" "$folder/nodes.h5" --quiet)
-    say "job $job with two processes"
+    job=$(LAUNCHER="mpirun --oversubscribe -n 2" submit --ntasks=2 slurm/nodes.sh "$folder/long.nml" "$folder/nodes.h5" --quiet)
+    say "job $job with two processes, told to stop as well"
+    check "it begins and is told" stop_when_begun nodes.h5
     check "the job ends" wait_for_jobs 60
-    check "two processes give the file of one" same_file "$folder/deck-reference.h5" "$folder/nodes.h5"
+    check "it was queued again" requeued
+    check "two processes give the file of one" same_file "$folder/long-reference.h5" "$folder/nodes.h5"
 fi
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

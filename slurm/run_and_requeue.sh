@@ -10,7 +10,8 @@ run_and_requeue() { # command
     local child code
     "$@" &
     child=$!
-    trap 'kill -TERM "$child" 2> /dev/null' TERM USR1 INT
+    # mpirun passes this one on and returns what its processes do; of TERM and INT it makes an end with 1 for itself
+    trap 'kill -USR1 "$child" 2> /dev/null' TERM USR1 INT
     wait "$child"
     code=$?
     # a signal ends the first wait, not the command

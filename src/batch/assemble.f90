@@ -1,12 +1,14 @@
 !> The cases of part files in their order, whoever computed them.
 !>
-!> In: an index of part files, an open sink. Out: every case in the sink once, in order, from one record in memory at a time.
+!> In: an index of part files, an open sink, somebody who may stop it. Out: every case in the sink once, in order, from one record
+!> in memory at a time.
 module camroller_assemble
    use camroller_error, only : error_t
    use camroller_case_record, only : end_cases, take_header
    use camroller_case_runs, only : sort_entries
    use camroller_case_sink, only : sink_t
    use camroller_text_lines, only : line_t
+   use camroller_monitor, only : heed_stop, monitor_t
    use camroller_part_file, only : read_record
    use camroller_part_scan, only : index_t
    use camroller_raw_file, only : close_raw, open_raw, raw_file_t
@@ -19,14 +21,16 @@ module camroller_assemble
 contains
 
    !> Hand over all cases of part files.
-   subroutine assemble(index, paths, sink, error)
+   subroutine assemble(index, paths, sink, monitor, error)
       !> What the files hold; gets sorted
       type(index_t), intent(inout) :: index
       !> Their paths
       type(line_t), intent(in) :: paths(:)
       !> Where the cases go; all layouts come first
       class(sink_t), intent(inout) :: sink
-      !> File error
+      !> Who may stop it between two records
+      class(monitor_t), intent(inout) :: monitor
+      !> File error; that it was stopped
       type(error_t), allocatable, intent(out) :: error
 
       type(raw_file_t), allocatable :: files(:)
@@ -41,6 +45,7 @@ contains
       if (.not. allocated(error)) call announce_layouts(index, sink, error)
       next = 1
       do i = 1, index%count
+         call heed_stop(monitor, error)
          if (allocated(error)) exit
          associate (entry => index%entries(i))
             if (entry%first + entry%count <= next) cycle

@@ -1,10 +1,11 @@
 !> Cases that are compared with those of a result file, bit by bit.
 !>
-!> In: records, a result file. Out: which quantities differ, in how many cases, by how much. Compared are what became of each case
-!> and in which words, all scalars with their units, and series, histories and profiles of the cases that have them. A case without
-!> a result must have neither scalars nor series in the file.
+!> In: records, a result file and its sweep. Out: which quantities differ, in how many cases, by how much. Compared are number and
+!> swept values of each case, what became of it and in which words, all scalars with their units, and series, histories and profiles
+!> of the cases that have them. A case without a result must have neither scalars nor series in the file.
 module camroller_comparison_sink
    use camroller_kinds, only : wp, not_a_number
+   use camroller_deck_sweep, only : sweep_t
    use camroller_differences, only : compare, difference_t
    use camroller_error, only : error_t, raise, kind_deck, kind_file, kind_usage
    use camroller_case_record, only : case_outcome_t, take_case, take_header
@@ -15,6 +16,7 @@ module camroller_comparison_sink
    use camroller_hdf5_read, only : has_member, is_text_dataset, list_members, member_length, read_extents, read_numbers, &
       & read_text, read_text_attribute
    use camroller_history_file, only : history_group, rows_in_list
+   use camroller_input_comparison, only : compare_inputs
    use camroller_layout, only : layout_t
    use camroller_output_cases, only : choice_source, group_of_source
    use camroller_record, only : record_t
@@ -34,6 +36,8 @@ module camroller_comparison_sink
    type, extends(sink_t) :: comparison_sink_t
       !> The result file
       type(hdf5_object_t) :: file
+      !> What varies in its deck
+      type(sweep_t) :: sweep
       !> Its scalars and its series, once they are listed, and the number of its cam angles
       type(stored_t), allocatable :: scalars(:), series(:)
       integer :: angles = 0
@@ -95,20 +99,21 @@ contains
 
       type(case_outcome_t), allocatable :: outcomes(:)
       type(layout_t) :: own
-      logical, allocatable :: differs(:), agrees(:)
+      logical, allocatable :: differs(:), agrees(:), is_another(:)
       integer :: first, count, layout, i
 
       call take_header(record, first, count, layout)
       allocate (own%summary(0), own%series(0), own%angle(0))
       if (layout > 0) own = self%layouts%items(layout)
-      allocate (outcomes(count), differs(count))
-      differs = .false.
+      allocate (outcomes(count))
+      allocate (differs(count), is_another(count), source=.false.)
       do i = 1, count
          call take_case(record, own, outcomes(i))
       end do
       if (.not. allocated(self%scalars)) call list_stored(self, error)
-      if (.not. allocated(error)) call compare_statuses(self, first, outcomes, differs, error)
-      agrees = .not. differs
+      if (.not. allocated(error)) call compare_inputs(self%differences, self%file, self%sweep, first, differs, error)
+      if (.not. allocated(error)) call compare_statuses(self, first, outcomes, is_another, error)
+      agrees = .not. is_another
       if (.not. allocated(error)) call compare_words(self, first, outcomes, agrees, differs, error)
       if (.not. allocated(error)) call compare_summaries(self, first, outcomes, own%summary, agrees, differs, error)
       if (.not. allocated(error)) call compare_series(self, first, outcomes, own, agrees, differs, error)
@@ -117,7 +122,7 @@ contains
          if (.not. allocated(error)) call compare_profiles(self, first, outcomes, differs, error)
       end if
       self%cases = self%cases + size(outcomes)
-      self%differing = self%differing + count_true(differs)
+      self%differing = self%differing + count_true(differs .or. is_another)
    end subroutine keep
 
    !> Number of true values.
@@ -325,29 +330,39 @@ contains
 
       real(wp), allocatable :: stored(:), computed(:) ! [unit of the series]
       character(len=:), allocatable :: name
-      integer :: i, k, place
+      logical :: has_series(size(outcomes)), is_compared(size(outcomes))
+      integer :: i, k, place, rows
 
-      do i = 1, size(outcomes)
-         if (.not. agrees(i) .or. (outcomes(i)%status == 0 .and. .not. allocated(outcomes(i)%series))) cycle
-         if (allocated(outcomes(i)%series)) then
-            call read_numbers(self%file, "/series/cam_angle", [0], shape(layout%angle), stored, error)
-            if (allocated(error)) return
-            call compare(self%differences, "series/cam_angle", first + i - 2, stored, layout%angle, differs(i))
-         end if
-         do k = 1, size(self%series)
-            name = trim(self%series(k)%name)
-            computed = spread(not_a_number(), 1, merge(size(layout%angle), self%angles, allocated(outcomes(i)%series)))
-            call read_numbers(self%file, "/"//name, [0, first + i - 2], [size(computed), 1], stored, error)
-            if (allocated(error)) return
-            do place = size(layout%series), 1, -1
-               if ("series/"//layout%series(place)%name == name) exit
-            end do
-            if (place > 0 .and. allocated(outcomes(i)%series)) then
+      has_series = [(allocated(outcomes(i)%series), i=1, size(outcomes))]
+      is_compared = agrees .and. (has_series .or. outcomes%status /= 0)
+      if (.not. any(is_compared)) return
+      rows = self%angles
+      if (any(has_series)) then
+         rows = size(layout%angle)
+         call read_numbers(self%file, "/series/cam_angle", [0], [rows], stored, error)
+         if (allocated(error)) return
+         do i = 1, size(outcomes)
+            if (is_compared(i) .and. has_series(i)) call compare(self%differences, "series/cam_angle", first + i - 2, stored, &
+               & layout%angle, differs(i))
+         end do
+      end if
+      ! All cases at once: a case alone would have the chunks of all its neighbours decompressed
+      do k = 1, size(self%series)
+         name = trim(self%series(k)%name)
+         call read_numbers(self%file, "/"//name, [0, first - 1], [rows, size(outcomes)], stored, error)
+         if (allocated(error)) return
+         do place = size(layout%series), 1, -1
+            if ("series/"//layout%series(place)%name == name) exit
+         end do
+         do i = 1, size(outcomes)
+            if (.not. is_compared(i)) cycle
+            computed = spread(not_a_number(), 1, rows)
+            if (place > 0 .and. has_series(i)) then
                computed = outcomes(i)%series(:, place)
                call compare(self%differences, name//" (unit)", first + i - 2, self%series(k)%unit, &
                   & layout%series(place)%unit, differs(i))
             end if
-            call compare(self%differences, name, first + i - 2, stored, computed, differs(i))
+            call compare(self%differences, name, first + i - 2, stored(rows*(i - 1) + 1:rows*i), computed, differs(i))
          end do
       end do
    end subroutine compare_series

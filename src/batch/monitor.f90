@@ -1,12 +1,13 @@
-!> Somebody who follows a computation of many cases: hears of it, and may ask it to stop.
+!> Somebody who follows a computation of many cases: hears of it, and may ask it to stop, up to the end of the result file.
 !>
-!> In: cases done, remarks. Out: whether to stop. `monitor_t` itself is silent and stops nothing; a program that has something to
-!> say extends it. All its procedures are called by one thread at a time.
+!> In: cases done, remarks. Out: whether to stop, also as an error of one who makes the file. `monitor_t` itself is silent and stops
+!> nothing; a program that has something to say extends it. All its procedures are called by one thread at a time.
 module camroller_monitor
+   use camroller_error, only : error_t, raise, kind_unfinished
    implicit none
    private
 
-   public :: monitor_t
+   public :: monitor_t, heed_stop
 
    !> The silent one
    type :: monitor_t
@@ -55,7 +56,7 @@ contains
       end associate
    end subroutine drop_remark
 
-   !> Hear that all cases are done or the computation was stopped: what follows is quick, and is not to be stopped.
+   !> Hear that no further case is computed, since all are done or the computation was stopped.
    subroutine go_on(self)
       !> Who follows
       class(monitor_t), intent(inout) :: self
@@ -63,5 +64,17 @@ contains
       associate (unused => self)
       end associate
    end subroutine go_on
+
+   !> An error where the making of the file of a sweep shall stop, with its part files kept.
+   subroutine heed_stop(monitor, error)
+      !> Who follows
+      class(monitor_t), intent(inout) :: monitor
+      !> What went wrong before; gets the stop where nothing did
+      type(error_t), allocatable, intent(inout) :: error
+
+      if (allocated(error)) return
+      if (monitor%wants_stop()) call raise(error, kind_unfinished, "the sweep was stopped with no case to do, before its file "// &
+         & "was made; continue with --resume")
+   end subroutine heed_stop
 
 end module camroller_monitor

@@ -6,18 +6,19 @@ module camroller_run_facts
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
+   use camroller_canonical_value, only : spell_value
    use camroller_case_columns, only : measured_prefix
    use camroller_deck, only : deck_t
    use camroller_deck_document, only : echo_t, get_echo
    use camroller_deck_files, only : list_case_tables
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_deck_tables, only : find_table, table_groups, wanted_columns
-   use camroller_deck_sweep, only : measured_numbers, sweep_numbers, sweep_size, sweep_t, sweep_words
+   use camroller_deck_sweep, only : measured_numbers, sweep_axis_t, sweep_numbers, sweep_size, sweep_t, sweep_words
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_text_attribute
    use camroller_mistakes, only : mistakes_t
    use camroller_text_lines, only : add_line, line_t
-   use camroller_number_text, only : hexadecimal => hexadecimal_text, integer_text
+   use camroller_number_text, only : hexadecimal => hexadecimal_text, integer_text, is_number
    use camroller_output, only : output_t, write_deck, write_deck_lines, write_deck_table, write_measured, &
       & write_run, write_sweep, write_table_count
    use camroller_part_scan, only : study_facts_t
@@ -27,7 +28,7 @@ module camroller_run_facts
    use camroller_system_file, only : utc_date
    use camroller_table_file, only : read_table, table_t, write_heading
    use camroller_text_file, only : join_path
-   use camroller_text_list, only : text_at, text_list_t
+   use camroller_text_list, only : text_at
    use camroller_version, only : version_text, build_commit, compiler_facts
    implicit none
    private
@@ -37,6 +38,9 @@ module camroller_run_facts
    !> Keys that say nothing about the cases: how a sweep is run, and where tables are, whose content counts
    character(len=*), parameter :: keys_beside_cases(*) = [character(len=23) :: "sweep.wall_time_limit_s", "sweep.checkpoint_s", &
       & "sweep.table", "lift.table", "second_lift.table", "gas_force.table"]
+
+   !> Longest value that stands in the facts of a study as it is, in letters
+   integer, parameter :: shown_value = 512
 
 contains
 
@@ -226,7 +230,7 @@ contains
       !> What to agree on
       type(study_facts_t), intent(out) :: facts
 
-      character(len=:), allocatable :: compiler, options
+      character(len=:), allocatable :: compiler, options, value
       type(echo_t) :: echo
       integer :: i
 
@@ -235,16 +239,19 @@ contains
       facts%deck = ""
       do i = 1, size(echo%keys)
          if (any(echo%keys(i) == keys_beside_cases)) cycle
-         facts%deck = facts%deck//trim(echo%keys(i))//" = "//trim(echo%values(i))//new_line("a")
+         call spell_value(echo%values(i)%text, value)
+         if (len(value) > shown_value) value = value(:shown_value)//" and so on, with checksum "// &
+            & hexadecimal(checksum(text_words(value), 0_int64))
+         facts%deck = facts%deck//trim(echo%keys(i))//" = "//value//new_line("a")
       end do
       do i = 1, size(table_groups)
          call add_tables(deck, trim(table_groups(i)), facts%deck)
       end do
       do i = 1, size(deck%sweep%axes)
-         call add_values(deck%sweep%axes(i)%key, deck%sweep%axes(i)%values, facts%deck)
+         call add_values(deck%sweep%axes(i), "", facts%deck)
       end do
       do i = 1, size(deck%sweep%measured)
-         call add_values(measured_prefix//deck%sweep%measured(i)%key, deck%sweep%measured(i)%values, facts%deck)
+         call add_values(deck%sweep%measured(i), measured_prefix, facts%deck)
       end do
       call compiler_facts(compiler, options)
       call shorten_options(options)
@@ -252,18 +259,34 @@ contains
          & new_line("a")//options
    end subroutine study_facts
 
-   !> Number of values of a column and a checksum of them, where it has any.
-   subroutine add_values(name, values, facts)
-      !> Name of the column
-      character(len=*), intent(in) :: name
-      !> Its values
-      type(text_list_t), intent(in) :: values
+   !> Number of values of a column and a checksum of them, where it has any: of numbers as such, however they are spelt.
+   subroutine add_values(column, prefix, facts)
+      !> The column
+      type(sweep_axis_t), intent(in) :: column
+      !> What its name begins with
+      character(len=*), intent(in) :: prefix
       !> The facts so far
       character(len=:), allocatable, intent(inout) :: facts
 
-      if (values%count == 0) return
-      facts = facts//"values of "//name//" "//integer_text(values%count)//" with checksum "// &
-         & hexadecimal(checksum(text_words(values%fields), 0_int64))//new_line("a")
+      character(len=:), allocatable :: word
+      real(wp) :: number ! [unit of the column]
+      integer(int64) :: sum
+      integer :: i, status
+
+      if (column%values%count == 0) return
+      sum = 0_int64
+      do i = 1, column%values%count
+         status = 1
+         word = text_at(column%values, i)
+         if (is_number(word)) read (word, *, iostat=status) number
+         if (status == 0) then
+            sum = checksum([transfer(number, 0_int64)], sum)
+         else
+            sum = checksum(text_words(without_quotes(word)), sum)
+         end if
+      end do
+      facts = facts//"values of "//prefix//column%key//" "//integer_text(column%values%count)//" with checksum "// &
+         & hexadecimal(sum)//new_line("a")
    end subroutine add_values
 
    !> Compiler options that may change a number: each once, without folders.

@@ -14,14 +14,14 @@ module camroller_sweep_file
    use camroller_deck_sweep_keys, only : series_choice, series_chosen, series_none
    use camroller_earlier_result, only : complete_there, earlier_t, failures_in_words, look_at_earlier, other_there
    use camroller_text_lines, only : line_t
-   use camroller_monitor, only : monitor_t
+   use camroller_monitor, only : heed_stop, monitor_t
    use camroller_number_text, only : agreeing, counted, integer_text
    use camroller_output, only : output_options_t
    use camroller_part_file, only : find_parts, part_beginning, scan_part
    use camroller_part_scan, only : index_t, study_facts_t
    use camroller_result_claim, only : claim_result, claim_t, give_up_claim, remove_unfinished
    use camroller_settings, only : take
-   use camroller_system_file, only : remove_file
+   use camroller_system_file, only : pause_briefly, remove_file
    implicit none
    private
 
@@ -156,14 +156,18 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(claim_t) :: claim
-      logical :: is_mine
+      logical :: is_mine, is_waiting
 
-      call claim_result(claim, study%path, .false., is_mine, error)
-      if (.not. (is_mine .or. allocated(error))) then
-         call monitor%say("waiting for another process that makes '"//study%path//"'", .false.)
-         call claim_result(claim, study%path, .true., is_mine, error)
-      end if
-      if (allocated(error)) return
+      is_waiting = .false.
+      do
+         call claim_result(claim, study%path, is_mine, error)
+         if (.not. is_mine) call heed_stop(monitor, error)
+         if (allocated(error)) return
+         if (is_mine) exit
+         if (.not. is_waiting) call monitor%say("waiting for another process that makes '"//study%path//"'", .false.)
+         is_waiting = .true.
+         call pause_briefly()
+      end do
       call join_parts(study, deck, options, is_merge, monitor, report, error)
       call give_up_claim(claim)
    end subroutine make_result
@@ -216,7 +220,7 @@ contains
          if (allocated(error)) return
          if (is_merge .and. earlier%state == other_there) call monitor%say("remark: '"//study%path// &
             & "' is replaced; it was not a result of this sweep: "//earlier%reason, .false.)
-         call write_result(study, deck, options%is_resumed, index, paths, report, error)
+         call write_result(study, deck, options%is_resumed, index, paths, monitor, report, error)
       end if
    end subroutine join_parts
 
@@ -259,7 +263,7 @@ contains
 
    !> Write the result file; the parts are removed where it is complete. What came meanwhile under its name is looked at again
    !> before it gets that name, since a result that is computed without parts waits for no other.
-   subroutine write_result(study, deck, is_resumed, index, paths, report, error)
+   subroutine write_result(study, deck, is_resumed, index, paths, monitor, report, error)
       !> What is computed
       type(study_t), intent(in) :: study
       !> Its deck
@@ -270,6 +274,8 @@ contains
       type(index_t), intent(inout) :: index
       !> The part files
       type(line_t), intent(in) :: paths(:)
+      !> Who may stop it
+      class(monitor_t), intent(inout) :: monitor
       !> What came of it
       type(sweep_report_t), intent(inout) :: report
       !> File error, or the first failure
@@ -281,7 +287,7 @@ contains
 
       call remove_unfinished(study%path)
       call open_result(writer, study, deck, .false., error)
-      if (.not. allocated(error)) call assemble(index, paths, writer, error)
+      if (.not. allocated(error)) call assemble(index, paths, writer, monitor, error)
       if (.not. allocated(error)) call write_missing(writer, study%facts%cases, error)
       if (.not. allocated(error)) then
          call look_at_earlier(earlier, study%path, study%facts)

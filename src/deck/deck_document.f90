@@ -9,10 +9,10 @@ module camroller_deck_document
    use camroller_deck_keys, only : new_schema
    use camroller_key_uses, only : say_use
    use camroller_deck, only : deck_t
-   use camroller_deck_values, only : longest_text
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_near_names, only : nearest_name
    use camroller_names, only : write_names
+   use camroller_text_lines, only : line_t
    use camroller_units, only : unit_name_length
    implicit none
    private
@@ -31,7 +31,7 @@ module camroller_deck_document
       !> As `group.key`
       character(len=2*key_length), allocatable :: keys(:)
       !> Value in the unit of the key
-      character(len=longest_text), allocatable :: values(:)
+      type(line_t), allocatable :: values(:)
       !> Unit; `1` for none
       character(len=unit_name_length), allocatable :: units(:)
       !> `given` or `default`
@@ -57,7 +57,7 @@ contains
          n = n + 1
          associate (key => deck%schema%keys(i), value => deck%settings%values(i))
             echo%keys(n) = trim(deck%schema%groups(key%group)%name)//"."//key%name
-            echo%values(n) = value%text
+            echo%values(n)%text = value%text
             echo%units(n) = key%unit%symbol
             echo%origins(n) = merge("given  ", "default", value%is_given)
          end associate

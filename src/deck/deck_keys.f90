@@ -490,9 +490,9 @@ contains
 
       call add_group(schema, "output", group_standard, "contents of the result file")
       call add_number(schema, "angle_step_deg", up_to(largest_step/degree), &
-         & "cam angle between output points; 360 is a whole multiple of it", &
-         & default=standard%numerics%output_step)
-      call add_logical(schema, "series", options%series, "are the series over the cam angle written, or the summary alone?")
+         & "cam angle between output points; 360 is a whole multiple of it", default=standard%numerics%output_step)
+      call add_logical(schema, "series", options%series, "are the series over the cam angle written, or the summary alone? "// &
+         & "'camroller sweep' goes by sweep.series")
       call add_name(schema, "compression", compression_names, options%compression, &
          & "whether series are compressed; 'auto' compresses large files")
    end subroutine add_output_keys

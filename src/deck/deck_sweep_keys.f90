@@ -14,7 +14,8 @@ module camroller_deck_sweep_keys
    implicit none
    private
 
-   public :: add_sweep_keys, check_series, series_choice, sweep_key_count, series_none, series_chosen, series_all
+   public :: add_sweep_keys, check_series, series_choice, series_choice_name, sweep_key_count
+   public :: series_none, series_chosen, series_all
 
    !> Keys that one sweep can vary without a table
    integer, parameter :: sweep_key_count = 8
@@ -49,7 +50,7 @@ contains
    end subroutine add_sweep_keys
 
    !> Series of which cases the command `sweep` writes.
-   function series_choice(settings) result(choice)
+   pure function series_choice(settings) result(choice)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Place in `series_choice_names`; none without the group
@@ -57,6 +58,16 @@ contains
 
       choice = max(series_none, findloc(series_choice_names == get_word(settings, "sweep", "series"), .true., 1))
    end function series_choice
+
+   !> The same in words.
+   pure function series_choice_name(settings) result(name)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> One of `series_choice_names`
+      character(len=len_trim(series_choice_names(series_choice(settings)))) :: name
+
+      name = series_choice_names(series_choice(settings))
+   end function series_choice_name
 
    !> Are there the cases whose series are wanted?
    subroutine check_series(settings, sweep, mistakes)
@@ -70,8 +81,8 @@ contains
       integer, allocatable :: cases(:)
       integer :: i
 
-      if (get_word(settings, "sweep", "series") == "chosen") call demand(settings, "sweep", "series_cases", "series = 'chosen'", &
-         & mistakes)
+      if (series_choice(settings) /= series_chosen) return
+      call demand(settings, "sweep", "series_cases", "series = 'chosen'", mistakes)
       allocate (cases(0))
       call take(settings, "sweep", "series_cases", cases)
       do i = 1, size(cases)

@@ -8,7 +8,7 @@ module camroller_c_library
 
    public :: glob_t, c_access, c_chmod, c_close, c_closedir, c_errno, c_fallocate, c_fclose, c_fileno, c_flock, c_fopen, c_fread, &
       & c_fseek, c_fsync, c_ftell, c_ftruncate, c_getpid, c_glob, c_globfree, c_gmtime, c_lseek, c_open, c_opendir, &
-      & c_pread, c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time, c_unlink, c_write
+      & c_pread, c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time, c_unlink, c_usleep, c_write
 
    !> Result of `glob`, as C libraries lay it out, with room for what follows
    type, bind(C) :: glob_t
@@ -226,6 +226,12 @@ module camroller_c_library
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int) :: status
       end function c_unlink
+
+      function c_usleep(microseconds) bind(C, name="usleep") result(status)
+         import :: c_int
+         integer(c_int), value :: microseconds
+         integer(c_int) :: status
+      end function c_usleep
 
       function c_write(descriptor, bytes, count) bind(C, name="write") result(written)
          import :: c_int, c_int64_t, c_ptr, c_size_t

@@ -22,8 +22,8 @@ module camroller_raw_file
 
    !> Bytes of a word
    integer(int64), parameter, public :: word_size = 8_int64
-   !> What `lseek` takes for the end of a file; `flock` for an exclusive lock, with and without waiting, and for giving it back
-   integer(c_int), parameter :: from_end = 2_c_int, lock_exclusive = 2_c_int, lock_at_once = 6_c_int, unlock = 8_c_int
+   !> What `lseek` takes for the end of a file; `flock` for an exclusive lock without waiting, and for giving it back
+   integer(c_int), parameter :: from_end = 2_c_int, lock_at_once = 6_c_int, unlock = 8_c_int
    !> Error numbers: another process has the lock (EWOULDBLOCK); a signal came before anything was done; a closed pipe
    integer(c_int), parameter :: would_block = 11_c_int, interrupted = 4_c_int, broken_pipe = 32_c_int
 
@@ -84,20 +84,18 @@ contains
    end subroutine open_raw
 
    !> Have the lock of a file alone.
-   subroutine lock_raw(file, is_waiting, is_mine, error)
+   subroutine lock_raw(file, is_mine, error)
       !> An open file; its content is read again
       type(raw_file_t), intent(inout) :: file
-      !> Wait for a process that has it?
-      logical, intent(in) :: is_waiting
-      !> Is it had? Where not, there is an error, or another process has it and was not waited for
+      !> Is it had? Where not, there is an error, or another process has it
       logical, intent(out) :: is_mine
       !> File error where there are no locks
       type(error_t), allocatable, intent(out) :: error
 
-      is_mine = c_flock(file%descriptor, merge(lock_exclusive, lock_at_once, is_waiting)) == 0
+      is_mine = c_flock(file%descriptor, lock_at_once) == 0
       if (is_mine) then
          file%bytes = c_lseek(file%descriptor, 0_c_int64_t, from_end)
-      else if (is_waiting .or. error_number() /= would_block) then
+      else if (error_number() /= would_block) then
          call raise(error, kind_file, "cannot lock '"//file%path//"': "//last_words())
       end if
    end subroutine lock_raw

@@ -1,15 +1,16 @@
-!> System calls for replacing files: process number, free space, rename, sync, remove, resolve links, date, words for errors.
+!> System calls: process number, a pause, and those for replacing files: free space, rename, sync, remove, resolve links, date,
+!> words for errors.
 !>
 !> In: paths. Out: what the C library does, with logical results instead of numbers.
 module camroller_system_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_null_char, &
       & c_null_ptr, c_ptr, c_size_t
    use camroller_c_library, only : c_chmod, c_closedir, c_errno, c_fallocate, c_fsync, c_ftruncate, c_getpid, c_gmtime, c_opendir, &
-      & c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time
+      & c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time, c_usleep
    implicit none
    private
 
-   public :: process_number, is_folder, rename_file, remove_file, resolve_path, set_permissions
+   public :: process_number, pause_briefly, is_folder, rename_file, remove_file, resolve_path, set_permissions
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
    public :: ignore_size_signal, restore_size_signal, error_number, system_words, text_at_address
 
@@ -31,6 +32,13 @@ contains
 
       number = int(c_getpid())
    end function process_number
+
+   !> Wait for a tenth of a second; a signal ends the pause.
+   subroutine pause_briefly()
+      integer(c_int) :: ignored
+
+      ignored = c_usleep(100000_c_int)
+   end subroutine pause_briefly
 
    !> Whether a path names a folder that can be opened.
    function is_folder(path) result(answer)

@@ -10,7 +10,7 @@ module camroller_deck_values
    use camroller_quotes, only : is_quoted
    use camroller_units, only : to_si
    use camroller_number_text, only : integer_text, is_beyond_range
-   use camroller_value_syntax, only : is_number_list, is_yes_or_no
+   use camroller_value_syntax, only : count_numbers, is_yes_or_no
    use camroller_mistakes, only : shown
    use camroller_near_names, only : nearest_name
    use camroller_deck_bounds, only : is_bounded, say_bounds
@@ -22,8 +22,8 @@ module camroller_deck_values
 
    public :: value_t, read_value, next_word, has_empty_place, longest_text
 
-   !> Longest list and longest text
-   integer, parameter :: longest_list = 512, longest_text = 512
+   !> Longest list, which keeps `1000000000*1` from taking the memory, and longest text
+   integer, parameter :: longest_list = 100000, longest_text = 512
    !> Longest value of a key but a list of &sweep: a list of numbers with all their digits is shorter
    integer, parameter :: longest_value = 64*longest_list
 
@@ -116,10 +116,10 @@ contains
       character(len=:), allocatable, intent(out) :: reason
 
       !> Numbers as read [unit of the key]
-      real(wp) :: list(longest_list)
+      real(wp), allocatable :: list(:)
       !> What marks an empty place [unit of the key]
       real(wp), parameter :: empty = -huge(1.0_wp)
-      integer :: status, n, wrong
+      integer :: status, n, wrong, places
       character(len=:), allocatable :: buffer, allowed, question
       namelist /value_group/ list
 
@@ -127,10 +127,11 @@ contains
          reason = "'"//trim(key%name)//"' must be finite; '"//shown(value%text)//"' is too large to be held"
          return
       end if
-      list = empty
+      call count_places(key, value%text, .false., places, reason)
+      if (allocated(reason)) return
+      allocate (list(places), source=empty)
       buffer = "&value_group list="//value%text//" /"
-      status = merge(0, 1, is_number_list(value%text, longest_list, .false.))
-      if (status == 0) read (buffer, nml=value_group, iostat=status)
+      read (buffer, nml=value_group, iostat=status)
       if (status /= 0) then
          reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(value%text)
          return
@@ -167,15 +168,16 @@ contains
       character(len=:), allocatable, intent(out) :: reason
 
       integer, parameter :: empty = -huge(1)
-      integer :: list(longest_list)
-      integer :: status, n
+      integer, allocatable :: list(:)
+      integer :: status, n, places
       character(len=:), allocatable :: buffer, allowed
       namelist /value_group/ list
 
-      list = empty
+      call count_places(key, value%text, .true., places, reason)
+      if (allocated(reason)) return
+      allocate (list(places), source=empty)
       buffer = "&value_group list="//value%text//" /"
-      status = merge(0, 1, is_number_list(value%text, longest_list, .true.))
-      if (status == 0) read (buffer, nml=value_group, iostat=status)
+      read (buffer, nml=value_group, iostat=status)
       if (status /= 0) then
          reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(value%text)
          return
@@ -268,6 +270,26 @@ contains
       nearest = nearest_name(name, key%choices)
       if (nearest /= "") reason = reason//"; did you mean '"//nearest//"'?"
    end subroutine check_choice
+
+   !> Room for a list of numbers.
+   subroutine count_places(key, text, is_whole, places, reason)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Text of the value
+      character(len=*), intent(in) :: text
+      !> Are whole numbers wanted?
+      logical, intent(in) :: is_whole
+      !> Places of the list, at least one
+      integer, intent(out) :: places
+      !> What is wrong
+      character(len=:), allocatable, intent(out) :: reason
+
+      places = count_numbers(text, longest_list, is_whole)
+      if (places < 0) reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(text)
+      if (places > longest_list) reason = "'"//trim(key%name)//"' has more than "//integer_text(longest_list)//" values: "// &
+         & shown(text)
+      places = max(1, places)
+   end subroutine count_places
 
    !> As many values as the key takes, and no empty place between them?
    subroutine check_count(key, n, is_dense, text, reason)

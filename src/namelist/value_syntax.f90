@@ -1,13 +1,14 @@
 !> The syntax of values in a namelist: is a text one that a read takes?
 !>
-!> In: a text. Out: a verdict. What passes is read without an error; what does not is never handed to a read.
+!> In: a text. Out: a verdict, for a list the number of its places. What passes is read without an error; what does not is never
+!> handed to a read.
 module camroller_value_syntax
    use camroller_deck_text, only : to_lower
    use camroller_number_text, only : is_number
    implicit none
    private
 
-   public :: is_number_list, is_yes_or_no
+   public :: count_numbers, is_yes, is_yes_or_no
 
    !> What parts the values of a list
    character(len=*), parameter :: separators = " ,"//char(9)//char(10)//char(13)
@@ -19,36 +20,38 @@ module camroller_value_syntax
 
 contains
 
-   !> Is a text a list of numbers, `3*1.5` for three of them, with empty places or without?
-   pure function is_number_list(text, most, is_whole) result(verdict)
+   !> Number of places of a list of numbers, `3*1.5` for three of them, those without a value included.
+   pure function count_numbers(text, most, is_whole) result(places)
       !> The text
       character(len=*), intent(in) :: text
-      !> Most values that there may be
+      !> Most places that there may be
       integer, intent(in) :: most
       !> Are whole numbers wanted?
       logical, intent(in) :: is_whole
-      !> Is it?
+      !> The places, `most + 1` for more; -1 where the text is no such list
+      integer :: places
+
+      integer :: first, last, star, repeats
       logical :: verdict
 
-      integer :: first, last, star, repeats, count
-
-      count = 0
+      places = 0
       verdict = .true.
       last = 0
       do while (verdict)
          first = verify(text(last + 1:), separators) + last
          if (first == last) exit
-         count = count + max(0, number_of_commas(text(last + 1:first - 1)) - merge(1, 0, last > 0))
+         places = places + max(0, number_of_commas(text(last + 1:first - 1)) - merge(1, 0, last > 0))
          last = scan(text(first:), separators)
          last = merge(len(text), first + last - 2, last == 0)
          star = index(text(first:last), "*")
          repeats = 1
          if (star > 0) call read_repeats(text(first:first + star - 2), most, repeats, verdict)
-         count = min(count + repeats, most + 1)
+         places = min(places + repeats, most + 1)
          if (verdict .and. first + star <= last) verdict = is_value(text(first + star:last), is_whole)
       end do
-      verdict = verdict .and. count + number_of_commas(text(last + 1:)) <= most
-   end function is_number_list
+      places = min(places + number_of_commas(text(last + 1:)), most + 1)
+      if (.not. verdict) places = -1
+   end function count_numbers
 
    !> Number of commas in a text.
    pure function number_of_commas(text) result(commas)
@@ -106,6 +109,16 @@ contains
          verdict = is_number(word) .or. any(to_lower(word(start:)) == no_numbers)
       end if
    end function is_value
+
+   !> Does a logical value say yes?
+   pure function is_yes(text) result(verdict)
+      !> The value, without blanks around it
+      character(len=*), intent(in) :: text
+      !> Does it?
+      logical :: verdict
+
+      verdict = scan(text(:min(2, len(text))), "tT") > 0
+   end function is_yes
 
    !> Is a text a logical value?
    pure function is_yes_or_no(text) result(verdict)

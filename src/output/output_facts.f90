@@ -11,6 +11,7 @@ module camroller_output_facts
    use camroller_output_file, only : abandon_output, check_open, number_size, object_size, output_t, text_size
    use camroller_number_text, only : is_number
    use camroller_quotes, only : without_quotes
+   use camroller_text_lines, only : line_t
    implicit none
    private
 
@@ -33,7 +34,7 @@ contains
       !> Keys, as `group.key`
       character(len=*), intent(in) :: keys(:)
       !> Their values: numbers as such, names plain or in quotes, lists separated by commas
-      character(len=*), intent(in) :: values(:)
+      type(line_t), intent(in) :: values(:)
       !> Their units, blank where there is none
       character(len=*), intent(in) :: units(:)
       !> Where they come from: `given` or `default`
@@ -46,14 +47,15 @@ contains
 
       call check_open(writer, error)
       if (allocated(error)) return
-      call reserve_file(writer%file, real(len(text), wp) + size(keys)*(object_size + len(values) + len(units)), error)
+      call reserve_file(writer%file, real(len(text), wp) + size(keys)*(object_size + len(units)) + &
+         & sum([(len(values(i)%text), i=1, size(values))]), error)
       if (.not. allocated(error)) call create_texts(writer%deck, "text", [integer ::], dataset, error)
       if (.not. allocated(error)) call write_text(dataset, [integer ::], text, error)
       call close_object(dataset)
       if (.not. allocated(error)) call create_group(writer%deck, "values", group, error)
       do i = 1, size(keys)
          if (allocated(error)) exit
-         call write_value(group, trim(keys(i)), trim(values(i)), dataset, error)
+         call write_value(group, trim(keys(i)), values(i)%text, dataset, error)
          if (.not. allocated(error)) call put_attribute(dataset, "units", units(i), error)
          if (.not. allocated(error)) call put_attribute(dataset, "given", origins(i), error)
          call close_object(dataset)

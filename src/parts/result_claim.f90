@@ -1,9 +1,9 @@
 !> One process at a time makes a result file of part files: who does has a claim on it.
 !>
-!> In: the path of a result file. Out: a claim, once no other process has one; unfinished files of processes that are
+!> In: the path of a result file. Out: a claim, where no other process has one; unfinished files of processes that are
 !> gone, removed. A claim is a lock on a file `<path>.part-lock`, which goes with it. The file says what it is, so that one of
 !> this name that is not ours stays as it is. The process that gives a claim up takes the name away first and then says so in
-!> the file, so that one that has waited for the lock of that file looks for the name again.
+!> the file, so that one that has opened that file before looks for the name again.
 module camroller_result_claim
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
@@ -34,15 +34,13 @@ module camroller_result_claim
 
 contains
 
-   !> Have a claim on a result, once no other process has one.
-   subroutine claim_result(claim, path, is_waiting, is_mine, error)
+   !> Have a claim on a result, unless another process has one.
+   subroutine claim_result(claim, path, is_mine, error)
       !> The claim
       type(claim_t), intent(out) :: claim
       !> Path of the result file
       character(len=*), intent(in) :: path
-      !> Wait for a process that has one?
-      logical, intent(in) :: is_waiting
-      !> Is it had? Where not, there is an error, or another process has it and was not waited for
+      !> Is it had? Where not, there is an error, or another process has it
       logical, intent(out) :: is_mine
       !> File error; also where a file that is no lock has its name
       type(error_t), allocatable, intent(out) :: error
@@ -54,7 +52,7 @@ contains
       do
          call open_raw(claim%file, part_beginning(path)//"lock", .true., error, is_shared=.true.)
          if (allocated(error)) exit
-         call lock_raw(claim%file, is_waiting, has_lock, error)
+         call lock_raw(claim%file, has_lock, error)
          if (.not. has_lock) exit
          if (claim%file%bytes == 0) then
             call append_words(claim%file, [lock_mark], error)
@@ -97,7 +95,7 @@ contains
 
       inquire (file=part_beginning(path)//"lock", exist=is_there)
       if (.not. is_there) return
-      call claim_result(claim, path, .false., is_mine, ignored)
+      call claim_result(claim, path, is_mine, ignored)
       if (is_mine) call give_up_claim(claim)
    end subroutine remove_left_lock
 

@@ -13,6 +13,7 @@ module test_output
    use camroller_output, only : abandon_output, add_layout, close_output, open_output, output_options_t, output_t, write_deck, &
       & write_outcome, write_run, write_sweep
    use camroller_system_file, only : remove_file
+   use camroller_text_lines, only : line_t
    use sample_result, only : check_number, check_text, expect_error, is_old_file, new_sample, same_content, sample_value, &
       & scratch_path, write_case, write_failure, write_old_file
    implicit none
@@ -60,12 +61,11 @@ contains
       path = scratch_path("all.h5")
       call open_output(writer, path, 3, options, raised)
       call write_deck(writer, "&case"//new_line("a")//"/", [character(len=12) :: "case.title", "masses.a_kg", "film.law"], &
-         & [character(len=8) :: "'it''s'", "0.25", "'moes'"], [character(len=2) :: "", "kg", ""], &
+         & [line_t("'it''s'"), line_t("0.25"), line_t("'moes'")], [character(len=2) :: "", "kg", ""], &
          & [character(len=7) :: "given", "default", "given"], raised)
       call write_sweep(writer, "operating_point.speed_rpm", "rev/min", [300.0_wp, 600.0_wp, 900.0_wp], raised)
       call write_sweep(writer, "film.law", "", [character(len=7) :: "moes", "martin", "another"], raised)
-      call write_run(writer, [character(len=8) :: "program", "version"], [character(len=9) :: "camroller", "1"], "", &
-         & raised)
+      call write_run(writer, [character(len=8) :: "program", "version"], [character(len=9) :: "camroller", "1"], "", raised)
       call write_samples(writer, 3, 8, raised)
       call close_output(writer, raised)
       call check(error, .not. allocated(raised), "cannot write")

@@ -86,6 +86,30 @@ def test_words_units_and_what_is_only_in_the_file_are_compared(camroller, folder
         assert result.returncode == DIFFERENCE and "x.h5: " + words in result.stderr
 
 
+@pytest.mark.parametrize("change, words", [
+    (lambda file: rewrite(file, "sweep/operating_point.speed_rpm", 0, 301),
+     "1 of 4 cases differs\n  sweep/operating_point.speed_rpm: in 1 case, at most by 0.0033 of its value, in case 0\n"),
+    (lambda file: rewrite(file, "case", slice(None), [3, 2, 1, 0]), "4 of 4 cases differ\n  case: in 4 cases, at most by 1 of its value, in case 0\n"),
+])
+def test_cases_are_compared_with_those_of_the_deck(camroller, folder, tmp_path, change, words):
+    shutil.copy(folder / "deck.h5", tmp_path / "x.h5")
+    with h5py.File(tmp_path / "x.h5", "r+") as file:
+        change(file)
+    result = run(camroller, "rerun", "x.h5", folder=tmp_path)
+    assert result.returncode == DIFFERENCE and "x.h5: " + words in result.stderr
+
+
+def test_swept_words_are_compared_with_those_of_the_deck(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'film.law' values_1 = 'moes', 'dowson_higginson'")
+    done(camroller, "sweep", deck, "--quiet", folder=tmp_path)
+    assert "2 cases are the same" in done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout
+    with h5py.File(tmp_path / "deck.h5", "r+") as file:
+        rewrite(file, "sweep/film.law", 1, "moes")
+    result = run(camroller, "rerun", "deck.h5", folder=tmp_path)
+    assert result.returncode == DIFFERENCE
+    assert "1 of 2 cases differs\n  sweep/film.law: in 1 case, another text, first in case 1\n" in result.stderr
+
+
 def test_cases_without_a_result_are_compared(camroller, tmp_path):
     """Their messages, and that they have no numbers; some laws have scalars that others do not have."""
     deck = write_deck(tmp_path / "deck.nml", "key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 60, 31.5 key_2 = 'cam_bearings.law' "

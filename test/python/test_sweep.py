@@ -135,6 +135,14 @@ def test_check_prints_time_memory_and_disk_space(camroller, deck):
     assert "memory about " in lines[2] and " MB in parts while it runs" in lines[2]
 
 
+def test_check_counts_the_memory_that_cases_take(camroller, tmp_path):
+    """Numbers of 2e9 cases, and words of 16 letters in quotes."""
+    deck = write_deck(tmp_path / "deck.nml", "kind = 'sobol' cases = 100 key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 900")
+    words = write_deck(tmp_path / "words.nml", "kind = 'sobol' cases = 100 key_1 = 'film.law' values_1 = 'moes', 'dowson_higginson'")
+    assert "memory about 48 GB; " in done(camroller, "check", deck, "--set", "sweep.cases=2000000000", folder=tmp_path).stdout
+    assert "memory about 88 GB; " in done(camroller, "check", words, "--set", "sweep.cases=2000000000", folder=tmp_path).stdout
+
+
 def test_check_of_a_million_cases_checks_some_of_them(camroller, deck):
     result = done(camroller, "check", deck, "--set", "sweep.count_1=250000", folder=deck.parent)
     assert "1000000 cases over 250000 of operating_point.speed_rpm" in result.stdout
@@ -188,7 +196,8 @@ def test_merge_partial_has_the_cases_computed_so_far(camroller, deck, reference,
     result = run(camroller, "merge", deck, folder=tmp_path)
     assert result.returncode == UNFINISHED
     assert "16 of 24 cases are missing, the first is case 0 (operating_point.speed_rpm=400, " in result.stderr
-    done(camroller, "merge", deck, "--partial", folder=tmp_path)
+    merge = done(camroller, "merge", deck, "--partial", folder=tmp_path)
+    assert "remark on 8 of 8 cases, the worst is case " in merge.stderr and " of 24 cases" not in merge.stderr
     assert len(parts(tmp_path)) == 1
     with h5py.File(tmp_path / "deck.h5") as file, h5py.File(reference) as whole:
         assert list(file["summary/status"]) == [-1] * 8 + [0] * 8 + [-1] * 8
@@ -302,6 +311,36 @@ def test_series_of_chosen_cases(camroller, deck, tmp_path):
     other = run(camroller, "export", "some.h5", "--case", 4, folder=tmp_path)
     assert other.returncode == USAGE and other.stdout == ""
     assert "the series of case 4 were not kept: a sweep keeps those that 'sweep.series' and 'sweep.series_cases' say" in other.stderr
+
+
+def test_a_thousand_cases_can_be_chosen(camroller, tmp_path):
+    """The file has the list as a whole, and a list that differs at its end is another study."""
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 900 count_1 = 1001")
+    chosen = ",".join(map(str, range(1000)))
+    study = ["--set", "sweep.series=chosen", "--set", "sweep.wall_time_limit_s=1e-3", "--quiet"]
+    assert run(camroller, "sweep", deck, *study, "--set", f"sweep.series_cases={chosen}", folder=tmp_path).returncode == UNFINISHED
+    done(camroller, "merge", deck, "--partial", *study, "--set", f"sweep.series_cases={chosen}", folder=tmp_path)
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert file["deck/values/sweep.series_cases"][()].decode() == chosen
+    other = run(camroller, "sweep", deck, *study, "--set", f"sweep.series_cases={chosen[:-1]}8", "--resume", folder=tmp_path)
+    assert other.returncode == FILE and "'sweep.series_cases = 0, 1, 2, " in other.stderr
+
+
+def test_a_choice_of_series_that_is_not_used_is_no_mistake(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 300, 400 series_cases = 3, 7, 11")
+    result = done(camroller, "check", deck, folder=tmp_path)
+    assert "sweep.series_cases = 3, 7, 11 has no effect: it is used with series = 'chosen'; series is 'none'" in result.stderr
+
+
+@pytest.mark.parametrize("series, has_some", [("all", True), ("none", False)])
+def test_a_sweep_does_not_go_by_the_series_of_a_run(camroller, deck, tmp_path, series, has_some):
+    words = f"remark: output.series has no effect in a sweep, which writes the series that sweep.series says: '{series}'\n"
+    study = ["--set", f"sweep.series={series}", "--set", f"output.series={str(not has_some).lower()}"]
+    result = done(camroller, "sweep", deck, *study, folder=tmp_path)
+    assert words in result.stderr
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert ("cam_angle" in file["series"]) == has_some
+    assert words not in done(camroller, "sweep", deck, *study[:2], folder=tmp_path).stderr
 
 
 def test_texts_and_names_can_be_swept(camroller, tmp_path):
@@ -461,6 +500,8 @@ def test_what_is_no_column_of_a_table_in_hdf5_is_told(camroller, tmp_path, name,
     ("key_1 = 'operating_point.speed_rpm' values_1 = 300, 400 series = 'chosen'", "series = 'chosen' needs 'series_cases'"),
     ("key_1 = 'operating_point.speed_rpm' values_1 = 300, 400 series = 'chosen' series_cases = 1, 100",
      "there is no case 100: the sweep has 2 cases, the first is 0"),
+    ("key_1 = 'operating_point.speed_rpm' values_1 = 300, 400 series = 'chosen' series_cases = 200000*1",
+     "'series_cases' has more than 100000 values: 200000*1"),
 ])
 def test_invalid_sweeps_are_refused(camroller, tmp_path, sweep, words):
     (tmp_path / "bad.csv").write_text("# two columns\noperating_point.speed_rpm, film.law\n300\n")

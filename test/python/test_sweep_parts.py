@@ -4,8 +4,10 @@ import fcntl
 import random
 import re
 import shutil
+import signal
 import struct
 import subprocess
+import time
 
 import h5py
 import pytest
@@ -17,6 +19,8 @@ FILE, UNFINISHED = 6, 8
 WORD = 8
 # bytes before the words of a record, and what a part file begins with: mark and kind, in the order of this machine's bytes
 HEAD, MARK = 24, 0x4361725061727400
+# what a lock holds
+LOCK = struct.pack("q", 0x436C6F636B727400)
 
 
 @pytest.fixture(scope="module")
@@ -131,6 +135,39 @@ def test_a_result_that_is_being_written_is_locked(camroller, deck, tmp_path):
     finally:
         process.kill()
         process.wait()
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1])
+def test_a_signal_stops_a_sweep_that_makes_its_file(camroller, tmp_path, number):
+    """With the code of a stopped sweep; the unfinished file goes, the parts stay."""
+    big = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 60") + " series = 'all'")
+    for shard in ("1/2", "2/2"):
+        done(camroller, "sweep", big, "--shard", shard, "--quiet", folder=tmp_path)
+    kept = sorted(tmp_path.iterdir())
+    process = subprocess.Popen([camroller, "sweep", big, "--resume", "--quiet"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    while not list(tmp_path.glob("*.unfinished-*")):
+        assert process.poll() is None
+    process.send_signal(number)
+    words = process.communicate(timeout=60)[1]
+    assert process.returncode == UNFINISHED, words
+    assert words.endswith("the sweep was stopped with no case to do, before its file was made; continue with --resume\n")
+    assert sorted(tmp_path.iterdir()) == kept
+    done(camroller, "sweep", big, "--resume", "--quiet", folder=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.h5", "deck.nml"]
+
+
+def test_a_signal_stops_a_sweep_that_waits_for_another_one(camroller, deck, parts):
+    with open(parts / "deck.h5.part-lock", "wb") as other:
+        other.write(LOCK)
+        other.flush()
+        fcntl.flock(other, fcntl.LOCK_EX)
+        process = subprocess.Popen([camroller, "sweep", deck, "--resume"], cwd=parts, stderr=subprocess.PIPE, text=True)
+        assert process.stderr.readline() == "waiting for another process that makes 'deck.h5'\n"
+        time.sleep(0.05)
+        process.send_signal(signal.SIGTERM)
+        words = process.communicate(timeout=60)[1]
+    assert process.returncode == UNFINISHED, words
+    assert "no case to do, before its file was made" in words
 
 
 def test_three_merges_at_once(camroller, deck, whole, parts, tmp_path_factory):

@@ -178,6 +178,36 @@ def test_resume_of_a_finished_sweep_repeats_its_exit_code(camroller, tmp_path, v
     assert (tmp_path / "deck.h5").read_bytes() == before
 
 
+@pytest.mark.parametrize("spelling", ["values_1 = 300,600 , 9e2", "values_1 = 300.0\n  600, 900,", "values_1 = 3d2 600 +900."])
+def test_resume_goes_by_values_and_not_by_their_spelling(camroller, tmp_path, spelling):
+    """Numbers, lists, texts and a default that is given; the last digit counts."""
+    sweep = "key_1 = 'operating_point.speed_rpm' {} key_2 = 'film.law' values_2 = 'moes', \"dowson_higginson\""
+    deck = write_deck(tmp_path / "deck.nml", sweep.format("values_1 = 300, 600, 900"))
+    assert run(camroller, "sweep", deck, *STOP, folder=tmp_path).returncode == UNFINISHED
+    write_deck(deck, sweep.format(spelling).replace('"', "'"))
+    given = ["--set", "numerics.accuracy=1.0e-03", "--set", "sweep.seed=1", "--set", "sweep.wall_time_limit_s=1e-3"]
+    assert run(camroller, "sweep", deck, *given, "--threads", 1, "--resume", folder=tmp_path).returncode == UNFINISHED
+    write_deck(deck, sweep.format("values_1 = 300, 600, 900.0000000000001"))
+    other = run(camroller, "sweep", deck, "--resume", folder=tmp_path)
+    assert other.returncode == FILE
+    assert "'sweep.values_1 = 300, 600, 900' is now 'sweep.values_1 = 300, 600, 900.0000000000001'" in other.stderr
+
+
+@pytest.mark.parametrize("rows, code", [
+    ("3e2 'moes' 1.0\n600.0 moes -\n900 moes 2.5\n", UNFINISHED),
+    ("300 moes 1\n600 moes 3\n900 moes 2.50\n", FILE),
+    ("300 moes 1\n600 moes -\n900 dowson_higginson 2.50\n", FILE),
+])
+def test_resume_goes_by_values_of_a_table_of_cases(camroller, tmp_path, rows, code):
+    heading = 'operating_point.speed_rpm film.law "measured.torque [N m]"\n'
+    (tmp_path / "cases.txt").write_text(heading + "300 moes 1\n600 moes -\n900 moes 2.50\n")
+    deck = write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.txt' series = 'chosen' series_cases = 2*1, 2")
+    assert run(camroller, "sweep", deck, *STOP, folder=tmp_path).returncode == UNFINISHED
+    (tmp_path / "cases.txt").write_text(heading + rows)
+    again = run(camroller, "sweep", deck, *STOP, "--resume", "--set", "sweep.series_cases=1 1 2", folder=tmp_path)
+    assert again.returncode == code, again.stderr
+
+
 @pytest.mark.parametrize("change, words", [
     ("roller.mass_kg=0.012", "its deck, a table or a value of --set differs: 'roller.mass_kg = 0.0088' is now 'roller.mass_kg = 0.012'\n"),
     ("sweep.count_1=7", "its deck, a table or a value of --set differs: 'sweep.count_1 = 6' is now 'sweep.count_1 = 7'\n"),

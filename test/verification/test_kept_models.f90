@@ -80,7 +80,7 @@ contains
          point = index(echo%keys(i), ".")
          position = find_key(deck%schema, find_group(deck%schema, echo%keys(i) (:point - 1)), trim(echo%keys(i) (point + 1:)))
          values = ""
-         if (position > 0) values = other_values(deck%schema%keys(position), trim(echo%values(i)))
+         if (position > 0) values = other_values(deck%schema%keys(position), echo%values(i)%text)
          if (values == "" .or. index(echo%keys(i), "output.") == 1 .or. index(echo%keys(i), "numerics.") == 1) cycle
          call vary_key(error, text, trim(echo%keys(i)), values, count)
          if (allocated(error)) return
