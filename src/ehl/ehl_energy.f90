@@ -17,7 +17,7 @@
 module camroller_ehl_energy
    use camroller_kinds, only : wp
    use camroller_conjunction, only : film_part
-   use camroller_ehl_films, only : cell_areas, cell_limit, cell_shear
+   use camroller_ehl_films, only : cell_limit, cell_parts, cell_shear, part_count
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_problem, only : ehl_problem_t, real_area_part
@@ -338,19 +338,26 @@ contains
       !> Gets the heat of sliding and its derivatives
       type(heat_made_t), intent(inout) :: made
 
-      ! Areas over length [m], pressure on them [N/m], limits [N/m], limited shear [N/m], derivatives over free shear and limit [-],
-      ! what the fall of the limit makes of them [N/(m K)]
-      real(wp), dimension(size(free)) :: areas, pressed, limits, shear, by_free, by_limit, fall
+      ! Parts of the cells: free shear over length [N/m], area over length [m], pressure on it [N/m]
+      real(wp) :: parts(3, part_count, size(free))
+      ! Of the parts of a cell: limits, free and limited shear over length [N/m], derivatives of the last over both others [-]
+      real(wp), dimension(part_count) :: limits, shear, by_free, by_limit
+      ! What the fall of the limits makes of a cell's shear at either side [N/(m K)]
+      real(wp) :: fall
+      integer :: i
 
-      call cell_areas(problem, grid, state, touching, areas, pressed)
+      call cell_parts(problem, grid, state, touching, free, parts)
       associate (heat => problem%heat, speed => abs(problem%sliding_speed))
-         limits = max(cell_limit(areas, pressed, heat%limiting_coefficient, heat%limiting_stress), tiny(1.0_wp))
-         shear = free
-         call limit_shear(heat%cap, limits, shear, by_free, by_limit)
-         fall = -0.5_wp*by_limit*limits*heat%limit_fall
-         made%sliding = speed*shear
-         made%slopes(1, :) = made%slopes(1, :) + speed*(by_free*slopes(1, :) + fall)
-         made%slopes(2, :) = made%slopes(2, :) + speed*(by_free*slopes(2, :) + fall)
+         do i = 1, size(free)
+            if (.not. free(i) > 0.0_wp) cycle
+            limits = max(cell_limit(parts(2, :, i), parts(3, :, i), heat%limiting_coefficient, heat%limiting_stress), tiny(1.0_wp))
+            shear = parts(1, :, i)
+            call limit_shear(heat%cap, limits, shear, by_free, by_limit)
+            fall = -0.5_wp*sum(by_limit*limits)*heat%limit_fall
+            made%sliding(i) = speed*sum(shear)
+            ! Each part of the cell takes the same part of a change of its free shear
+            made%slopes(:, i) = made%slopes(:, i) + speed*(sum(by_free*parts(1, :, i))/free(i)*slopes(:, i) + fall)
+         end do
       end associate
    end subroutine limit_heat
 

@@ -12,7 +12,7 @@ module camroller_ehl_films
    implicit none
    private
 
-   public :: ehl_films_t, cell_areas, cell_limit, cell_shear, limit_cells, get_films, compare_grids, chance_error
+   public :: ehl_films_t, cell_limit, cell_parts, cell_shear, limit_cells, get_films, compare_grids, chance_error
 
    !> Film and friction of a solution
    type :: ehl_films_t
@@ -34,7 +34,7 @@ module camroller_ehl_films
       real(wp) :: rolling = 0.0_wp
       !> Shear of a full film over length and sliding speed, `int eta/h dx` where no asperities touch [Pa s/m]
       real(wp) :: shear_slope = 0.0_wp
-      !> Cells of the film, where the problem keeps them, shape (3, cell): shear over length and sliding speed [Pa s/m]; area over
+      !> Parts of the film, where the problem keeps them, shape (3, part): shear over length and sliding speed [Pa s/m]; area over
       !> length, without asperities [m], and pressure on it [N/m], both times the limiting stress over that of the oil around
       real(wp), allocatable :: cells(:, :)
       !> Mean of the limiting traction coefficient over that of the oil around: by the temperature, weighed with the pressure [-]
@@ -65,6 +65,8 @@ module camroller_ehl_films
    !> Second difference of that logarithm from which on it is a jump that the nodes do not resolve, as behind a spike, and not
    !> the bend of a curve [-]
    real(wp), parameter :: largest_bend = 4.0_wp
+   !> Parts of a cell whose shear is limited one by one
+   integer, parameter, public :: part_count = 8
 
 contains
 
@@ -157,6 +159,8 @@ contains
       real(wp) :: shear(grid%size - 1), slopes(2, grid%size - 1)
       ! Part of the surface on which asperities touch [-]
       real(wp) :: touching(grid%size)
+      ! Parts of the cells, as `cell_parts` has them [Pa s/m], [m], [N/m]
+      real(wp), allocatable :: parts(:, :, :)
 
       associate (fields => state%fields, n => grid%size)
          films%rolling = 0.5_wp*rolling_integral(grid, state) + problem%speed/abs(grid%x(1))
@@ -168,42 +172,70 @@ contains
          films%shear_slope = sum(shear)
       end associate
       films%shear_slope = films%shear_slope*problem%oil%viscosity*problem%length_scale/problem%film_scale
-      if (problem%keeps_cells) then
-         allocate (films%cells(3, size(shear)))
-         films%cells(1, :) = shear*problem%oil%viscosity*problem%length_scale/problem%film_scale
-         call cell_areas(problem, grid, state, touching, films%cells(2, :), films%cells(3, :))
-      end if
+      if (.not. problem%keeps_cells) return
+      allocate (parts(3, part_count, size(shear)))
+      call cell_parts(problem, grid, state, touching, shear*problem%oil%viscosity*problem%length_scale/problem%film_scale, parts)
+      films%cells = reshape(parts, [3, size(shear)*part_count])
    end subroutine get_friction
 
-   !> Areas on which the film is full and no asperities touch, over length, and the film's pressure on them; both weighed with the
-   !> fall of a limiting stress by the temperature.
-   pure subroutine cell_areas(problem, grid, state, touching, areas, pressed)
+   !> Parts of the cells, each of which has a limit of its own: shear, area on which the film is full and no asperities touch, and
+   !> pressure on it, all over length; the last two weighed with the fall of a limiting stress by the temperature.
+   !>
+   !> Within a cell the logarithm of viscosity over film and the pressure are straight lines. In cold oil the first changes by
+   !> decades from a node to the next: limited as a whole a cell would have the limit of its mean pressure, and all of it.
+   pure subroutine cell_parts(problem, grid, state, touching, shear, parts)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> The solution
       type(ehl_state_t), intent(in) :: state
-      !> Part of the surface on which asperities touch [-]
-      real(wp), intent(in) :: touching(:)
-      !> Area over length [m], pressure times that [N/m]
-      real(wp), intent(out) :: areas(:), pressed(:)
+      !> Part of the surface on which asperities touch [-]; shear of each cell, whose parts get what is theirs of it [any]
+      real(wp), intent(in) :: touching(:), shear(:)
+      !> Shear [as given], area over length [m], pressure times that [N/m], shape (3, part, cell)
+      real(wp), intent(out) :: parts(:, :, :)
 
-      ! Part of a node's cell with a full film [-]
-      real(wp) :: filled(grid%size)
+      ! Part of a node's cell with a full film [-]; logarithm of film over viscosity at the ends of the parts [-]
+      real(wp) :: filled(grid%size), ends(0:part_count)
+      ! Area of a part over length [m]; its middle, as a part of the cell [-]; slopes that are not used [-]
+      real(wp) :: area, middle, slopes(2)
+      integer :: i, k
 
-      associate (fields => state%fields, n => grid%size)
-         filled = filled_part(grid, state)
-         areas = problem%length_scale*grid%step*0.5_wp*(filled(:n - 1) + filled(2:)) &
-            & *(1.0_wp - 0.5_wp*(touching(:n - 1) + touching(2:)))
-         if (allocated(fields%rise)) areas = areas*exp(-0.5_wp*problem%heat%limit_fall*(fields%rise(:n - 1) + fields%rise(2:)))
-         pressed = areas*0.5_wp*problem%pressure_scale*(fields%pressure(:n - 1) + fields%pressure(2:))
+      filled = filled_part(grid, state)
+      associate (fields => state%fields)
+         do i = 1, grid%size - 1
+            ends = fluidity_at(state, i) + (fluidity_at(state, i + 1) - fluidity_at(state, i)) &
+               & *[(real(k, wp)/part_count, k=0, part_count)]
+            area = problem%length_scale*grid%step(i)*0.5_wp*(filled(i) + filled(i + 1)) &
+               & *(1.0_wp - 0.5_wp*(touching(i) + touching(i + 1)))/part_count
+            if (allocated(fields%rise)) area = area*exp(-0.5_wp*problem%heat%limit_fall*(fields%rise(i) + fields%rise(i + 1)))
+            do k = 1, part_count
+               middle = (k - 0.5_wp)/part_count
+               call mean_fluidity(ends(k - 1), ends(k), parts(1, k, i), slopes)
+               parts(2, k, i) = area
+               parts(3, k, i) = area*problem%pressure_scale*(fields%pressure(i) + (fields%pressure(i + 1) - fields%pressure(i)) &
+                  & *middle)
+            end do
+            parts(1, :, i) = shear(i)*(parts(1, :, i)/sum(parts(1, :, i)))
+         end do
       end associate
-   end subroutine cell_areas
+   end subroutine cell_parts
 
-   !> Shear of a film whose stress is limited in each cell, over length, and its slope over the sliding speed.
+   !> Logarithm of film over viscosity at a node.
+   elemental function fluidity_at(state, node) result(fluidity)
+      !> The solution
+      type(ehl_state_t), intent(in) :: state
+      !> The node
+      integer, intent(in) :: node
+      !> The logarithm [-]
+      real(wp) :: fluidity
+
+      fluidity = max(log(state%fields%film(node)) - state%fields%log_viscosity(node), -largest_exponent)
+   end function fluidity_at
+
+   !> Shear of a film whose stress is limited in each part, over length, and its slope over the sliding speed.
    pure subroutine limit_cells(cells, cap, coefficient, stress, sliding_speed, shear, slope)
-      !> The cells, as `ehl_films_t` has them [Pa s/m], [m], [N/m]
+      !> The parts, as `ehl_films_t` has them [Pa s/m], [m], [N/m]
       real(wp), intent(in) :: cells(:, :)
       !> Position in `cap_names`
       integer, intent(in) :: cap
@@ -212,7 +244,7 @@ contains
       !> Shear [N/m], slope [Pa s/m]
       real(wp), intent(out) :: shear, slope
 
-      ! Shear of a cell [N/m], its derivatives over the free one and over the limit [-]
+      ! Shear of a part [N/m], its derivatives over the free one and over the limit [-]
       real(wp) :: one, by_free, by_limit
       integer :: i
 
@@ -227,7 +259,7 @@ contains
       end do
    end subroutine limit_cells
 
-   !> Limit of the shear of a cell over length.
+   !> Limit of the shear of a part of the film over length.
    elemental function cell_limit(area, pressed, coefficient, stress) result(limit)
       !> Area over length [m], pressure on it [N/m], both with the fall by temperature; rise of the limiting stress with the
       !> pressure [-], what it is without [Pa]
@@ -328,7 +360,7 @@ contains
       real(wp) :: bend(grid%size)
       integer :: i
 
-      fluidity = max(log(state%fields%film) - state%fields%log_viscosity, -largest_exponent)
+      fluidity = fluidity_at(state, [(i, i=1, grid%size)])
       filled = filled_part(grid, state)
       bend = 0.0_wp
       bend(2:grid%size - 1) = fluidity(3:) - 2.0_wp*fluidity(2:grid%size - 1) + fluidity(:grid%size - 2)
