@@ -32,7 +32,8 @@ from units import key_words, unit_words  # noqa: E402
 
 DEGREE = "\N{DEGREE SIGN}"
 MICRO = "\N{MICRO SIGN}"
-REACH = 2.5  # half widths of the widest contact that are shown on both sides
+REACH = 2.5  # half widths of the widest contact that are shown on both sides, at least
+LOADED = 0.03  # pressure over the largest shown from which on a place is shown: nearly rigid contacts carry load far outside
 HEIGHT = 3.0  # largest film of the figures over the largest central film of the profiles
 USUAL = 98  # percentile of films: a contact that is lost or regained has a thick one for a moment
 CHARACTERS = 10  # of a title in an inch
@@ -70,6 +71,14 @@ def nearest(angles: numpy.ndarray, angle: float) -> int:
     return int(numpy.argmin(numpy.abs((angles - angle + 180.0) % 360.0 - 180.0)))
 
 
+def reach_of(data: dict, angles) -> float:
+    """Distance from the middle that is shown of some angles [um]."""
+    rows = [nearest(data["angle"], angle) for angle in angles]
+    place = numpy.abs(data["x"] * data["half_width"][rows, None])
+    loaded = data["pressure"][rows] > LOADED * numpy.nanmax(data["pressure"][rows])
+    return 1e6 * max(REACH * numpy.nanmax(data["half_width"]), 1.1 * place.max(where=loaded, initial=0.0))
+
+
 def profiles(pressure, film, data: dict, angles: list[float]) -> None:
     """Pressure and film across the contact at some angles."""
     top = 0.0
@@ -80,7 +89,7 @@ def profiles(pressure, film, data: dict, angles: list[float]) -> None:
         pressure.plot(place, data["pressure"][i] / 1e6, color=f"C{number}", label=label)
         film.plot(place, 1e6 * data["film"][i], color=f"C{number}", label=label)
         top = numpy.nanmax([top, HEIGHT * 1e6 * data["film_central"][i]])
-    reach = REACH * 1e6 * numpy.nanmax(data["half_width"])
+    reach = reach_of(data, angles)
     pressure.set(ylabel="pressure [MPa]", xlim=(-reach, reach))
     pressure.set_ylim(bottom=0)
     film.set(ylabel=f"film [{MICRO}m]", xlabel=f"place across the contact, inlet on the left [{MICRO}m]", xlim=(-reach, reach),
@@ -93,7 +102,7 @@ def temperatures(across, turning, data: dict, angles: list[float]) -> None:
     for number, angle in enumerate(angles):
         i = nearest(data["angle"], angle)
         across.plot(1e6 * data["x"] * data["half_width"][i], data["film_rise"][i], color=f"C{number}")
-    reach = REACH * 1e6 * numpy.nanmax(data["half_width"])
+    reach = reach_of(data, angles)
     across.set(ylabel="rise of the film's temperature [K]", xlim=(-reach, reach),
                xlabel=f"place across the contact, inlet on the left [{MICRO}m]")
     inside = numpy.abs(data["x"]) <= 1

@@ -122,3 +122,15 @@ def test_slip_of_profiles_is_called_that_of_their_run(path):
     for names, words in (({"torque_drive"}, "of the run"), (set(), "solved contact")):
         figure = ehl.draw({name: values for name, values in data.items() if name not in names}, None, [180.0], "")
         assert words in [line.get_label() for axis in figure.axes for line in axis.lines]
+
+
+def test_profiles_are_shown_as_far_as_they_carry_load():
+    """A nearly rigid contact carries load at many half widths; an elastic one within one, and has the usual room beside it."""
+    place = np.linspace(-20, 5, 501)
+    elastic = np.sqrt(np.clip(1 - place**2, 0, None))
+    rigid = 0.5 / (1 + place**2)
+    data = {"x": place, "half_width": np.array([1e-4, 1e-4, np.nan]), "angle": np.array([0.0, 90.0, 180.0]),
+            "pressure": np.array([elastic, rigid, np.full(501, np.nan)])}
+    assert ehl.reach_of(data, [0, 180]) == pytest.approx(250)
+    # 0.5/(1 + x^2) is 3 % of the largest, 1, at x = 3.96
+    assert ehl.reach_of(data, [0, 90, 180]) == pytest.approx(1.1 * 396, rel=0.01)
