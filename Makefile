@@ -104,7 +104,7 @@ study-dynamics: build ## what the accuracy of a flexible train costs: table and 
 	cp results/dynamics_study.txt doc/dynamics_tables.txt
 	$(PYTHON) post/plot_study.py results/dynamics_study.h5 --output doc/figures --name dynamics
 
-audit: build ## influence and cost of each effect of decks/thesis.nml: tables and figure of doc/effects.md, half a minute
+audit: build ## influence and cost of each effect of decks/thesis.nml: tables and figure of doc/effects.md, ten seconds
 	@mkdir -p results
 	build/release/bin/camroller audit decks/thesis.nml -o results/thesis_audit.h5 --repeats 9 > results/thesis_audit.txt
 	cp results/thesis_audit.txt doc/effects_tables.txt

@@ -75,7 +75,8 @@ def reach_of(data: dict, angles) -> float:
     """Distance from the middle that is shown of some angles [um]."""
     rows = [nearest(data["angle"], angle) for angle in angles]
     place = numpy.abs(data["x"] * data["half_width"][rows, None])
-    loaded = data["pressure"][rows] > LOADED * numpy.nanmax(data["pressure"][rows])
+    pressure = numpy.nan_to_num(data["pressure"][rows])
+    loaded = pressure > LOADED * pressure.max()
     return 1e6 * max(REACH * numpy.nanmax(data["half_width"]), 1.1 * place.max(where=loaded, initial=0.0))
 
 
