@@ -71,15 +71,13 @@ contains
       call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
-      if (.not. config%is_quiet) then
-         call tell_deck_remarks(deck)
-         do i = 1, size(config%overrides)
-            if (is_of_runs(config%overrides(i)%text)) call tell("remark: "//config%overrides(i)%text// &
-               & " has no effect on solved contacts: it is used by runs"//new_line("a"))
-         end do
-      end if
+      if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call find_place(config, deck, result_kind, "_ehl.h5", path, error)
       if (allocated(error)) return
+      do i = 1, size(config%overrides)
+         if (is_of_runs(config%overrides(i)%text) .and. .not. config%is_quiet) call tell("remark: "//config%overrides(i)%text// &
+            & " has no effect on solved contacts: it is used by runs"//new_line("a"))
+      end do
       call study_facts(deck, facts)
       call make_sweep_case(deck, 1, case, error)
       if (.not. allocated(error)) call open_cases(writer, path, deck, facts, output_options_t(), .false., error)
