@@ -369,6 +369,7 @@ contains
 
       lean = now
       if (allocated(lean%mass)) deallocate (lean%mass)
+      if (allocated(lean%films%cells)) deallocate (lean%films%cells)
       cycle%moments = [cycle%moments, lean]
       if (.not. keeps_profiles) return
       count = size(cycle%moments)

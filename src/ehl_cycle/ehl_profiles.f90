@@ -204,6 +204,7 @@ contains
       if (.not. converged) return
       if (allocated(now%mass)) deallocate (now%mass)
       call spin_excess(model, position, now, now%sliding_speed, 0.0_wp, excess, slope)
+      if (allocated(now%films%cells)) deallocate (now%films%cells)
    end subroutine solve_at
 
 end module camroller_ehl_profiles
