@@ -266,9 +266,9 @@ contains
          & "roller_profile", along%place, least=case%mechanism%contact_width)
       call add(list, "edge_pressure", "Pa", "pressure at the end with the larger one, dry contact", "roller_profile", edge_pressure)
       call add(list, "line_load_negative_end", "N m-1", "load per length at the end at negative places", "roller_profile", &
-         & mean*along%ends(1))
+         & mean*along%ends(1), least=closed_load(case))
       call add(list, "line_load_positive_end", "N m-1", "load per length at the end at positive places", "roller_profile", &
-         & mean*along%ends(2))
+         & mean*along%ends(2), least=closed_load(case))
       if (.not. case%roller_profile%slice_series) return
       name = ""
       words = ""
@@ -277,9 +277,20 @@ contains
             name = "line_load_"//integer_text(i)
             words = "load per length of slice "//integer_text(i)//", from the negative end"
          end if
-         call add(list, name, "N m-1", words, "roller_profile", mean*loads(i))
+         call add(list, name, "N m-1", words, "roller_profile", mean*loads(i), least=closed_load(case))
       end do
    end subroutine add_axial
+
+   !> Load per length of an even contact with the valve closed, on the base circle or by its spring: a slice that is loaded for a
+   !> moment alone begins and ends with kinks, and errors are not relative to its own small mean.
+   pure function closed_load(case) result(load)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The load per length [N/m]
+      real(wp) :: load
+
+      load = max(case%spring%base_circle_load, case%spring%stiffness*case%spring%precompression)/case%mechanism%contact_width
+   end function closed_load
 
    !> Number of bearings of each camshaft that have series of their own.
    pure function bearing_count(case) result(count)
