@@ -116,7 +116,7 @@ contains
          record%values(i, :) = [cycle%moments(i)%length_scale, state%contact%load, state%contact%sliding_speed, &
             & cycle%moments(i)%films%peak, state%contact%film_min, closed%film_min, state%contact%film_central, &
             & closed%film_central, cycle%moments(i)%films%asperity_share, closed%asperity_load/max(closed%load, tiny(1.0_wp)), &
-            & state%contact%shear, closed%shear, state%contact%rolling_resistance, abs(closed%rolling_resistance), &
+            & state%contact%shear, closed%shear, state%contact%rolling_resistance, closed%rolling_resistance, &
             & state%contact%boundary_mobilised, closed%boundary_mobilised, state%contact%traction, state%torques(of_contact), &
             & state%torque_friction, state%torque_drive, state%torques(of_residual)]
       end do
