@@ -102,8 +102,8 @@ typedef struct {
    double speed;           /* of the cam, above zero [rad/s] */
    double oil_temperature; /* [K] */
    double gas_pressure;    /* gauge, pressing the valve shut [Pa] */
-   int has_pressure;       /* 1: in the place of the case's table, whose group &gas_force gives the valve's area; 0: the table */
-   int has_supply;         /* 1: supply pressure in the place of that of the case, which needs a lash adjuster; 0: that of the case */
+   int has_pressure;       /* 1: in the place of the case's table, whose group &gas_force gives the valve's area; 0: the table, with gas_pressure 0 */
+   int has_supply;         /* 1: supply pressure in the place of that of the case, which needs a lash adjuster; 0: that of the case, with supply_pressure 0 */
    double supply_pressure; /* gauge, of the oil at the lash adjuster, 0 or more [Pa] */
 } camroller_inputs;
 

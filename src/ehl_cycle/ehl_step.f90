@@ -141,8 +141,7 @@ contains
          load = now%load
          call find_film(model, march, position, before, rates, state, now, converged)
          if (.not. converged) return
-         call find_sliding_speed(model, position, before, rates, now, converged)
-         if (.not. converged) return
+         call find_sliding_speed(model, position, before, rates, now)
          ! Where film and slip drive each other round in circles, meet in the middle
          if (round > free_rounds) now%sliding_speed = 0.5_wp*(now%sliding_speed + speed)
          now%load = balanced_load(model, position, moments, now%traction, now%rolling_resistance, now%sliding_speed)
@@ -315,7 +314,7 @@ contains
 
    !> Sliding speed at which the roller's spin follows from film and load: rest where friction can hold the roller, else Newton's
    !> method inside a bracket.
-   pure subroutine find_sliding_speed(model, position, before, rates, now, found)
+   pure subroutine find_sliding_speed(model, position, before, rates, now)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry
@@ -326,18 +325,15 @@ contains
       real(wp), intent(in) :: rates(0:2)
       !> The contact; sliding speed and forces are set
       type(moment_t), intent(inout) :: now
-      !> Is there such a speed, of ten times that of pure rolling at most?
-      logical, intent(out) :: found
 
-      ! Bracket, its end away from rest, largest speed, trial [m/s]; excess of the rate [m/s^2], its slope [1/s]; what the moments
-      ! before add to the rate [m/s^2]
-      real(wp) :: low, high, reach, most, speed, excess, slope, past
+      ! Bracket, its end away from rest, trial [m/s]; excess of the rate [m/s^2], its slope [1/s]; what the moments before add to
+      ! the rate [m/s^2]
+      real(wp) :: low, high, reach, speed, excess, slope, past
       integer :: iteration
 
       past = dot_product(rates(1:size(before)), before%sliding_speed)
-      most = 10.0_wp*abs(rolling_speed_at(model, position))
-      low = -most
-      high = most
+      high = 10.0_wp*abs(rolling_speed_at(model, position))
+      low = -high
       speed = now%sliding_speed
       ! With the law of rest in question the excess jumps there, so that rest is one end of the bracket unless it is the answer
       if (has_stick(model)) speed = 0.0_wp
@@ -352,7 +348,6 @@ contains
          speed = speed - excess/slope
          if (speed <= low .or. speed >= high) speed = 0.5_wp*(low + high)
       end do
-      found = abs(speed) < most*(1.0_wp - 1.0e-6_wp)
       now%sliding_speed = speed
       now%damping = (slope - rates(0))/model%speed
    end subroutine find_sliding_speed

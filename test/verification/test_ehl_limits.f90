@@ -38,12 +38,12 @@ contains
       ]
    end subroutine collect_ehl_limits
 
-   !> Martin's film, h = 4.895 eta u R/w: elasticity and viscosity under pressure make the solved one 0.3 % thicker here (by another
-   !> program, on 601 nodes), and nodes that end where a fiftieth of the largest load has its inlet make it 4 % thinner.
+   !> Martin's film of rigid bodies and an oil of constant viscosity, h = 4.895 eta u R/w, is a lower bound that is nearly reached.
+   !> Nodes that end where a fiftieth of the largest load has its inlet make the film 4 % thinner.
    subroutine test_light_load(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Accuracy of 129 nodes and of steps, twice [-]
-      real(wp), parameter :: allowed = 0.01_wp
+      ! What 129 and 257 nodes differ by here [-]
+      real(wp), parameter :: allowed = 0.003_wp
       type(case_t) :: case
       type(model_t) :: model
       type(ehl_cycle_t) :: cycle
@@ -66,7 +66,10 @@ contains
          film = 4.895_wp*model%oil%viscosity*now%entrainment*position%equivalent_radius*model%contact_width/now%load
          call check(error, now%load < 0.002_wp*maxval(cycle%moments%load), "the load is not next to none")
          if (allocated(error)) return
-         call check(error, abs(now%films%central/film - 1.003_wp) < allowed, "film")
+         call check(error, now%films%central > (1.0_wp - allowed)*film, "film below that of rigid bodies")
+         if (allocated(error)) return
+         ! Elasticity and viscosity under pressure add as little as the error
+         call check(error, now%films%central < (1.0_wp + 3.0_wp*allowed)*film, "film")
       end associate
    end subroutine test_light_load
 
