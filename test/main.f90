@@ -8,6 +8,7 @@ program main
    use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
    use testdrive, only : testsuite_type, new_testsuite, unittest_type, error_type, get_argument, select_suite, &
       select_test
+   use camroller_blas_threads, only : use_one_blas_thread
    use test_error, only : collect_error
    use test_names, only : collect_names
    use test_version, only : collect_version
@@ -155,6 +156,8 @@ contains
       character(len=:), allocatable :: suite_name, test_name
       integer :: passed, failed, skipped, i
 
+      ! as the program does: threads of OpenBLAS wait busily for each other where other tests use the cores
+      call use_one_blas_thread()
       suites = all_suites()
       call get_argument(1, suite_name)
       call get_argument(2, test_name)

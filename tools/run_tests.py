@@ -4,8 +4,8 @@
 Usage: make test, which builds both programs and sets DEBUG_FLAGS and RELEASE_FLAGS
 
 Fortran tests with run-time checks and optimised, the examples, Python tests. Python tests that start the program run with
-both programs, the others once. Two parts run at a time; each prints when it is over. A part that breaks off counts as one
-failure.
+both programs, the others once, as do those that are marked `once`. Two parts run at a time; each prints when it is over. A part
+that breaks off counts as one failure.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ def main() -> int:
     # in the order in which two at a time end at nearly the same time, the longest first
     parts = [
         Part("Python tests, optimised program", python_tests, "release", "test"),
-        Part("Python tests, program with run-time checks", python_tests, "debug", "test", "-m", "program"),
+        Part("Python tests, program with run-time checks", python_tests, "debug", "test", "-m", "program and not once"),
         Part("Python tests of figures", python_tests, "release", "post"),
         Part("Fortran tests, optimised", fortran_tests, programs[1]),
         Part("Fortran tests, run-time checks", fortran_tests, programs[0]),

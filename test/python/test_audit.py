@@ -76,6 +76,7 @@ def test_an_audit_keeps_all_cams_without_their_bearings(camroller, folder):
         assert double[key][1:] == single[key][1:], key
 
 
+@pytest.mark.once
 def test_an_audit_takes_the_friction_of_bearings_from_two_lobe_shapes(camroller, tmp_path):
     deck = [str(ROOT / "decks/three_cam_head.nml"), "--set", "operating_point.speed_rpm=600"]
     for command in (["audit", *deck, "--repeats", "1", "-o", "audit.h5"], ["run", *deck, "-o", "run.h5"]):

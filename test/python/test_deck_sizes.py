@@ -76,6 +76,7 @@ def test_a_deck_of_a_megabyte_is_read_or_refused_with_a_short_message(camroller,
     assert all(len(line) < 4000 for line in result.stderr.splitlines())
 
 
+@pytest.mark.once
 def test_a_long_list_of_a_sweep_is_read(camroller, tmp_path):
     deck = tmp_path / "long.nml"
     values = ", ".join(str(300 + number/100) for number in range(MEGABYTE//16))
@@ -112,6 +113,7 @@ def test_for_a_long_line_the_text_around_the_mistake_is_shown(camroller, tmp_pat
     assert source[caret.index("^"):caret.rindex("^") + 1] == "mas_kg"
 
 
+@pytest.mark.once
 def test_a_table_of_a_megabyte_is_refused_with_a_short_message(camroller, tmp_path):
     deck = (ROOT / "decks/tabulated_lift.nml").read_text(encoding="utf-8")
     (tmp_path / "tables").mkdir()

@@ -111,6 +111,7 @@ def test_the_plungers_spring_makes_the_base_circle_load(tmp_path, camroller):
     assert one["dynamic_load_max"] == pytest.approx(other["dynamic_load_max"], rel=1e-5)
 
 
+@pytest.mark.once
 def test_joint_tension_and_overspeed_give_remarks(tmp_path, camroller):
     summary, warnings = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=2500")
     assert summary["joint_force_min"] < 0 and "the joint of finger and pivot is in tension" in warnings
@@ -180,6 +181,7 @@ def test_a_valve_that_no_longer_closes_has_no_speed_of_seating(tmp_path, camroll
     assert float(told[1]) == pytest.approx(1e3 * summary["least_valve_lift_highest"], rel=5e-3)
 
 
+@pytest.mark.once
 def test_check_tries_a_flexible_train_with_a_larger_tolerance(camroller):
     """At the accuracy of the deck a part of no engine takes most of a minute, and the table of costs is a guess anyway."""
     def tried(*values):
@@ -247,6 +249,7 @@ def test_a_plunger_starts_no_turn_far_beyond_its_stop(tmp_path, camroller):
         assert file["turns/plunger_highest"][0].max() < 1.1e-3
 
 
+@pytest.mark.once
 def test_a_check_valve_that_cannot_open_and_an_empty_chamber_have_remarks(tmp_path, camroller):
     """Steps are many there; contacts that part less than once a turn are not the reason."""
     _, warnings = run(camroller, ADJUSTER, tmp_path / "run.h5", "numerics.tolerance=1e-5", "lash_adjuster.supply_pressure_MPa=0.02",
@@ -259,6 +262,7 @@ def test_a_check_valve_that_cannot_open_and_an_empty_chamber_have_remarks(tmp_pa
     assert "check valve" not in warnings and "vacuum" not in warnings
 
 
+@pytest.mark.once
 def test_lash_takes_lift_and_its_impact_is_in_no_estimate(tmp_path, camroller):
     _, warnings = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=900", "dynamics.lash_mm=1", "numerics.tolerance=1e-3")
     assert re.search(r"lift it by 9\.5 mm; dynamics\.lash_mm = 1 takes it", warnings) and "the finger yields" not in warnings
@@ -306,6 +310,7 @@ def test_load_of_the_closed_valve_is_that_of_the_lift_at_rest(tmp_path, camrolle
 
 @pytest.mark.parametrize("speed, words", [(2350, "they still drift in one direction (the plunger's highest place by "),
                                           (1900, "they still approach a period of 2 cycles: ")])
+@pytest.mark.once
 def test_turns_that_are_still_on_their_way_are_called_a_transient(speed, words, tmp_path, camroller):
     done = subprocess.run([camroller, "run", ADJUSTER, "-o", tmp_path / "run.h5", "--quiet", "--set", f"sweep.values_1={speed}"],
                           capture_output=True, text=True)
@@ -318,6 +323,7 @@ def test_turns_that_are_still_on_their_way_are_called_a_transient(speed, words, 
     assert "these numbers are those of a transient; raise numerics.max_cycles" in warnings
 
 @pytest.mark.parametrize("speed, temperature, cycles", [(2350, 95, 200), (2200, -10, 400), (2350, -20, 400)])
+@pytest.mark.once
 def test_an_adjuster_that_climbs_is_followed_to_its_stop(speed, temperature, cycles, tmp_path, camroller):
     """What the usual number of cycles calls a transient ends there, in oil so cold too that it leaks out over thousands of turns."""
     summary, warnings = run(camroller, ADJUSTER, tmp_path / "run.h5", f"sweep.values_1={speed}", f"numerics.max_cycles={cycles}",
@@ -326,6 +332,7 @@ def test_an_adjuster_that_climbs_is_followed_to_its_stop(speed, temperature, cyc
     assert "the lash adjuster pumps up" in warnings and "reaches its upper stop" in warnings
 
 
+@pytest.mark.once
 def test_limit_of_an_adjuster_in_cold_oil_is_where_its_plunger_climbs(camroller):
     """At the limit the check valve opens for some turns of hundreds; a search that puts the plunger on its stop finds it shut."""
     done = subprocess.run([camroller, "limit", ADJUSTER, "--to", "2200", "--step", "1100", "--set", "operating_point.oil_temperature_degC=-10"],
@@ -334,6 +341,7 @@ def test_limit_of_an_adjuster_in_cold_oil_is_where_its_plunger_climbs(camroller)
 
 
 
+@pytest.mark.once
 def test_gas_on_the_closed_valve_is_in_the_estimate_and_has_a_remark(tmp_path, camroller):
     """60 bar on a valve of 30 mm press it 85 um into a seat of 5e7 N/m, and the finger onto the base circle with it."""
     angle = np.arange(0, 361, 2.0)
@@ -393,6 +401,7 @@ def test_a_rattling_finger_has_no_bounces_before_the_event_and_its_joint_a_force
 
 
 @pytest.mark.parametrize("deck, speed", [(DECK, 900), (DECK, 2900), (ADJUSTER, 300)], ids=["900", "2900", "adjuster-300"])
+@pytest.mark.once
 def test_errors_of_means_and_extremes_are_as_estimated(deck, speed, tmp_path, camroller):
     rough, _ = run(camroller, deck, tmp_path / "rough.h5", f"sweep.values_1={speed}", "numerics.tolerance=1e-3")
     fine, _ = run(camroller, deck, tmp_path / "fine.h5", f"sweep.values_1={speed}", "numerics.tolerance=1e-6")
@@ -429,6 +438,7 @@ PERIODIC = [row for row in REFERENCE[1:] if not row.startswith("lash")]
 
 
 @pytest.mark.parametrize("row", PERIODIC, ids=[row.split(",")[0] for row in PERIODIC])
+@pytest.mark.once
 def test_periodic_states_agree_with_an_independent_integration(row, tmp_path, camroller):
     name, *values = row.split(",")
     reference = dict(zip(REFERENCE[0].split(",")[1:], map(float, values)))
@@ -442,6 +452,7 @@ def test_periodic_states_agree_with_an_independent_integration(row, tmp_path, ca
 
 @pytest.mark.parametrize("deck, speed, period, change", [(ADJUSTER, 1840, 2, ""), (DECK, 900, 2, "dynamics.lash_mm=0.2"),
                                                          (ADJUSTER, 2200, 0, "")], ids=["adjuster", "lash", "none"])
+@pytest.mark.once
 def test_extremes_of_turns_that_differ_have_the_error_of_a_turn(deck, speed, period, change, tmp_path, camroller):
     """And a period of several turns leaves as much of a disturbance as it does, not what a turn leaves of the alternation."""
     gas = "" if deck == ADJUSTER else f"""\n&gas_force\n   table = '{ROOT}/decks/tables/cylinder_pressure.txt'
@@ -466,6 +477,7 @@ def test_extremes_are_those_of_all_turns(tmp_path, camroller):
     assert summary["min_joint_force"] == pytest.approx(forces.min(), rel=5e-3)  # at the points of the means alone
 
 
+@pytest.mark.once
 def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, camroller):
     """The summary is their mean, spread and range; a case that repeats each turn has none, one without a period has 40."""
     done = subprocess.run([camroller, "sweep", ADJUSTER, "-o", tmp_path / "turns.h5", "--quiet", "--set", "sweep.values_1=300,1900,2200",
@@ -526,6 +538,7 @@ def test_energy_lost_in_the_spring_is_that_of_its_modes(tmp_path, camroller):
         assert np.quantile(np.abs(powers["spring"] - modes), 0.9) < 5e-3 * modes.max()
 
 
+@pytest.mark.once
 def test_an_empty_chamber_with_little_air_is_computed(tmp_path, camroller):
     """On the way to pumping up its pressure is below 1e-4 of the ambient one, where the little air in the oil makes the room."""
     words = ["--set", "operating_point.speed_rpm=4500", "--set", "lash_adjuster.air_content=0.001", "--set", "lash_adjuster.volume_cm3=0.06",
@@ -535,6 +548,7 @@ def test_an_empty_chamber_with_little_air_is_computed(tmp_path, camroller):
         assert file["summary/status"][0] == 0 and "the lash adjuster pumps up" in "\n".join(file["run/warnings"].asstr()[...])
 
 
+@pytest.mark.once
 def test_a_finger_free_in_its_lash_is_in_tension_without_a_share_of_the_cycle(tmp_path, camroller):
     """A pin's film draws it by 0.05 N on the base circle, two thirds of the cycle."""
     words = ["--set", "dynamics.lash_mm=0.3", "--set", "output.angle_step_deg=10", "--set", "needle_bearing.friction_coefficient=0.1"]

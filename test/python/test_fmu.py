@@ -434,6 +434,7 @@ def comma_locale(tmp_path_factory):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.once
 def test_numbers_are_whole_under_a_locale_with_a_comma(write, tmp_path, comma_locale, version):
     """In a process of its own: numbers that are read at the start, and a parameter that is set."""
     script = tmp_path / "drive.py"

@@ -26,6 +26,7 @@ def fixture_job(camroller, tmp_path):
 
 
 @pytest.mark.parametrize("script, launcher", [("node.sh", ""), ("nodes.sh", "env"), ("nodes.sh", "mpirun --oversubscribe -n 1")])
+@pytest.mark.once
 def test_a_job_that_is_told_to_stop_is_queued_again(camroller, job, tmp_path, script, launcher):
     if launcher.startswith("mpirun") and not shutil.which("mpirun"):
         pytest.skip("no mpirun here")

@@ -184,6 +184,7 @@ def test_every_row_of_the_table_is_tried(camroller):
 
 
 @pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.once
 def test_an_idle_key_changes_nothing_and_a_used_one_does(camroller, tmp_path, scene):
     values, groups, _ = SCENES[scene]
     used = used_in(scene)

@@ -4,6 +4,8 @@ import pathlib
 import re
 import subprocess
 
+import pytest
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -45,6 +47,7 @@ def test_a_limit_that_is_regained_says_where(camroller):
     assert abs(float(rows[3][1]) - 1695) < 15 and re.fullmatch(r"regained at 1[78]\d\d(\.\d)?", rows[3][2])
 
 
+@pytest.mark.once
 def test_an_adjuster_that_holds_the_valve_open_has_no_better_limit_of_seating(camroller):
     rows, _ = limits(camroller, "lash_adjuster.nml", "--to", "2400", "--step", "1200", "--set", "numerics.tolerance=1e-2")
     closes = float(rows[4][1])
@@ -52,6 +55,7 @@ def test_an_adjuster_that_holds_the_valve_open_has_no_better_limit_of_seating(ca
     assert rows[3] == ["-", f"above {rows[4][1]}", f"from {rows[4][1]} on it does not close"]
 
 
+@pytest.mark.once
 def test_a_plunger_on_its_lower_stop_has_no_limit_of_pump_up(camroller):
     rows, _ = limits(camroller, "lash_adjuster.nml", "--to", "1200", "--step", "300", "--set", "lash_adjuster.gap_um=60",
                      "--set", "numerics.tolerance=1e-3")

@@ -79,6 +79,7 @@ def test_check_tells_the_margins_without_friction_from_the_load_with_it(camrolle
     assert told and int(told[1]) > 300, text
 
 
+@pytest.mark.once
 def test_check_foretells_the_size_of_a_sweep(camroller, tmp_path):
     speeds = "sweep.values_1=" + ",".join(str(300 + i) for i in range(400))
     text = done(camroller, "check", "decks/thesis.nml", "--set", speeds, "--set", "sweep.values_2=60,95").stdout
@@ -168,6 +169,7 @@ def test_point_selects_one_case_of_a_sweep(camroller, tmp_path):
     assert "1 case is the same to the last bit" in done(camroller, "rerun", tmp_path / "one.h5").stdout
 
 
+@pytest.mark.once
 def test_deck_from_the_standard_input(camroller, tmp_path):
     deck = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
     done(camroller, "run", "-", "-o", tmp_path / "a.h5", "--quiet", input=deck)

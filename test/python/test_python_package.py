@@ -392,6 +392,7 @@ print("fine")
     assert in_python(installed, words, DECK.with_name("sliding_joints.nml")) == ["fine"]
 
 
+@pytest.mark.once
 def test_mistakes_after_a_change_have_their_places_in_included_files(installed, camroller, tmp_path):
     """Also in a case of the sweep, whose deck is without the lines of its sweep: the places that the program names."""
     deck = split_deck(tmp_path)

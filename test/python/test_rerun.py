@@ -210,6 +210,7 @@ def test_a_file_with_an_apostrophe_in_its_name(camroller, tmp_path):
     ("audit", ["--repeats", 1], "with a table in /study and no cases that could be exported or computed again; 'python post/plot_audit.py'"),
     ("ehl", ["--set", "output.angle_step_deg=40"], "with solved contacts in /ehl and no series and scalars that could be exported"),
 ])
+@pytest.mark.once
 def test_files_of_other_commands_are_told_apart(camroller, tmp_path, command, options, words):
     deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 900")
     done(camroller, command, deck, "-o", "x.h5", "--quiet", *options, folder=tmp_path)

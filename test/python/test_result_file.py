@@ -238,6 +238,7 @@ def test_a_result_may_have_the_longest_name_that_a_file_can_have(camroller, tmp_
     assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
+@pytest.mark.once
 def test_page_of_the_result_file_has_every_dataset_with_its_axes(camroller, tmp_path):
     table = tmp_path / "points.txt"
     table.write_text('operating_point.speed_rpm "measured.torque [N m]"\n300 1\n900 -\n')

@@ -152,6 +152,7 @@ def check_with(camroller, deck, path, kind, *values):
 
 
 @pytest.mark.parametrize("deck", ["decks/thesis.nml", "decks/four_cylinder.nml", "decks/three_cam_head.nml"])
+@pytest.mark.once
 def test_every_lobe_of_the_table_of_the_cams_is_a_lift_of_a_deck(camroller, tmp_path, deck):
     """Lifts come back within 1e-5 of the largest, where the contour says what they are; nothing is remarked on them."""
     before = cam_table(camroller, tmp_path, deck)

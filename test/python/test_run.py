@@ -144,6 +144,7 @@ def test_names_can_be_swept(camroller, tmp_path):
         assert (file["series/film_thickness_min"][0] != file["series/film_thickness_min"][1]).any()
 
 
+@pytest.mark.once
 def test_a_long_run_shows_progress_on_a_terminal_only(camroller, tmp_path):
     deck = one_case(tmp_path / "deck.nml")
     deck.write_text(deck.read_text() + "&sweep key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 420 count_1 = 9001 /\n")
@@ -187,6 +188,7 @@ def test_contacts_are_solved_over_the_cycle(camroller, tmp_path):
     assert lines[0].startswith("  ehl/traction: in 1 case, at most by ") and "ehl/" not in "".join(lines[1:])
 
 
+@pytest.mark.once
 def test_heat_is_left_out_of_solved_contacts_and_of_the_formulas_beside_them(camroller, tmp_path):
     """At 900 rev/min and 25 degC heat in the inlet takes a tenth of the central film by its formula."""
     point = ["--set", "sweep.values_1=900", "--set", "sweep.values_2=25"]
@@ -250,6 +252,7 @@ def test_a_failed_case_of_ehl_has_no_numbers_and_the_others_do(camroller, tmp_pa
 
 
 @pytest.mark.parametrize("policy, speeds, status", [("stop", "300,3000", [0, DOMAIN]), ("warn", "3000", [0])])
+@pytest.mark.once
 def test_contacts_that_are_lost_are_told_as_of_a_run(camroller, tmp_path, policy, speeds, status):
     """Without the film: by the margins and the angles of the rigid train."""
     values = ["--set", f"case.contact_policy={policy}", "--set", f"sweep.values_1={speeds}", "--set", "sweep.values_2=95", *COARSE]
@@ -339,6 +342,7 @@ SMOOTH = re.sub(r"&asperity.*?^/$", "", (ROOT / "decks/numerical_film.nml").read
     ((900, 60, "traction.limiting_coefficient=0.003"), "traction.limit = 'mean' holds the shear of the film to 0.003 of the load"),
     ((300, 60, "film.range_policy=stop"), "film.range_policy=stop has no effect on solved contacts"),
     ((300, 60, "film.law=moes"), "has no effect in a run: it is used without &ehl, or with ehl.profiles = .true., or by 'camroller ehl'")])
+@pytest.mark.once
 def test_solved_contacts_have_the_remarks_on_films_of_a_run(camroller, tmp_path, options, words):
     speed, temperature, *others = options
     (tmp_path / "smooth.nml").write_text(SMOOTH)

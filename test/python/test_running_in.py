@@ -140,6 +140,7 @@ def test_a_film_grows_by_the_stress_over_the_area_that_is_sheared(camroller, tmp
     assert thickness == pytest.approx(growth * 2 * half_width / speed * 900 / 60, rel=0.01)
 
 
+@pytest.mark.once
 def test_a_flexible_train_lists_hours_and_turns(camroller, tmp_path):
     """Two turns make a period at 3140 rev/min; so few places do not show what vibrates."""
     text = DECK.read_text().split("&sweep")[0].replace("speed_rpm = 300", "speed_rpm = 3140")

@@ -13,6 +13,7 @@ COLD = ["--no-sweep", "--set", "film.law=moes", "--set", "lubricant.temperature_
         "numerics.accuracy=1e-3"]
 
 
+@pytest.mark.once
 def test_shear_of_a_nearly_rigid_contact_is_that_of_the_solved_one(camroller, tmp_path):
     """On the base circle, at the slip that the solved contact has; formulas of shear and film are off together, by 15 % here."""
     for zone, low, high in (("hertz", 1.5, 2.5), ("rigid_to_elastic", 0.8, 1.2)):

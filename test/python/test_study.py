@@ -37,6 +37,7 @@ def done(camroller, tmp_path_factory):
     return folder / "one_study.h5", result.stdout
 
 
+@pytest.mark.once
 def test_turns_of_a_longer_period_are_not_compared(camroller, tmp_path):
     """Two ways may end with different turns: their distance is no error of integration. Round-off decides whether the turns agree with
     those two or four before first: a period of two is about to double here."""
@@ -136,6 +137,7 @@ def test_study_of_films_has_rows_for_accuracies_and_nodes(camroller, tmp_path):
     assert (table["time"][rows] > 0).all()
 
 
+@pytest.mark.once
 def test_steady_films_and_those_solved_over_the_cycle_are_both_without_heat(camroller, tmp_path):
     """Heat in the inlet takes 2.5 % of the smallest film here, which is no error of the steady film."""
     text = (ROOT / "decks/heated_contact.nml").read_text()

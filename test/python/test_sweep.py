@@ -135,6 +135,7 @@ def test_check_prints_time_memory_and_disk_space(camroller, deck):
     assert "memory about " in lines[2] and " MB in parts while it runs" in lines[2]
 
 
+@pytest.mark.once
 def test_check_counts_the_memory_that_cases_take(camroller, tmp_path):
     """Numbers of 2e9 cases, and words of 16 letters in quotes."""
     deck = write_deck(tmp_path / "deck.nml", "kind = 'sobol' cases = 100 key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 900")

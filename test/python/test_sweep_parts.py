@@ -138,6 +138,7 @@ def test_a_result_that_is_being_written_is_locked(camroller, deck, tmp_path):
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1])
+@pytest.mark.once
 def test_a_signal_stops_a_sweep_that_makes_its_file(camroller, tmp_path, number):
     """With the code of a stopped sweep; the unfinished file goes, the parts stay."""
     big = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 60") + " series = 'all'")

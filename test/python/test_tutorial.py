@@ -18,6 +18,7 @@ def commands_of(block):
 
 
 @pytest.mark.skipif(not BLOCKS, reason="no commands")
+@pytest.mark.once
 def test_every_command_works_and_prints_what_the_page_shows(camroller, tmp_path):
     for name in ("decks", "post", "doc"):
         (tmp_path / name).symlink_to(ROOT / name)

@@ -26,7 +26,7 @@ module test_random_hosts
    public :: collect_random_hosts
 
    !> Cases of a test run with and without run-time checks, and the seed of the first
-   integer, parameter :: usual_cases = 30, few_cases = 4, usual_seed = 972000001
+   integer, parameter :: usual_cases = 12, few_cases = 4, usual_seed = 972000001
    !> Accuracy asked for of run and steps [-]
    real(wp), parameter :: accuracy = 1.0e-4_wp
    !> Steps of a turn; turns after which a case that does not repeat yet is left out, as most of a roller's spin may be kept
