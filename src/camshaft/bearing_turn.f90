@@ -4,7 +4,8 @@
 !> over the turn, from wherever. Out: its temperature, orbit, and means.
 !> The temperature of a bearing's oil is a root of `T = T_supply + rise(T)`. Where an oil film bears, friction falls and the flow of
 !> oil rises with the temperature: there is one root, below the rise that would follow at the supply's temperature. Where asperities
-!> rub, friction rises with the temperature, and the root lies higher: it is looked for upwards, in steps of twice what is missing.
+!> rub, friction rises with the temperature, and there may be none or several: the lowest, at which oil that warms stays, is looked for
+!> upwards from the supply's temperature in steps.
 module camroller_bearing_turn
    use camroller_kinds, only : wp
    use camroller_bearing_heat, only : bearing_heat_t, check_bearing_heat, direct_advice, temperature_rise
@@ -37,6 +38,9 @@ module camroller_bearing_turn
 
    !> Largest rise of temperature that is looked for [K]
    real(wp), parameter :: largest_rise = 200.0_wp
+   !> Step of the search where asperities may rub: the viscosity of the coldest oil falls by two fifths in it, that of
+   !> warm oil by a tenth [K]
+   real(wp), parameter :: rise_step = 5.0_wp
 
 contains
 
@@ -213,12 +217,12 @@ contains
       call try_rise(0.0_wp, low)
       if (allocated(error)) return
       first = 0.0_wp
-      last = min(-low, largest_rise)
+      last = min(merge(rise_step, -low, allocated(shaft%touch)), largest_rise)
       call try_rise(last, high)
       do while (.not. allocated(error) .and. high < -tolerance .and. last < largest_rise)
          first = last
          low = high
-         last = min(first + 2.0_wp*min(-low, largest_rise), largest_rise)
+         last = min(first + rise_step, largest_rise)
          call try_rise(last, high)
       end do
       if (allocated(error)) return

@@ -44,6 +44,7 @@ contains
          new_unittest("heat that goes into the metal alone changes nothing; heat changes the bearings alone", test_bits), &
          new_unittest("heat with mixed friction and orbits", test_together), &
          new_unittest("bearings whose asperities rub the more the warmer they are have their balance", test_rubbing), &
+         new_unittest("oil that warms stays at the lowest balance, below those at which asperities rub", test_lowest), &
          new_unittest("the balance is as good as the accuracy asks for", test_accuracy), &
          new_unittest("oil of any bearing hotter than the points of its viscosity is told, with series or without", test_far_oil), &
          new_unittest("impossible heat is refused with a message", test_refusals) &
@@ -119,7 +120,7 @@ contains
 
       density = case%lubricant%density*(1.0_wp - case%lubricant%thermal_expansion &
          & *(case%operating_point%oil_temperature - 288.15_wp))
-      do i = 1, 3
+      do i = 1, size(case%cam_bearings%bearing_positions)
          write (name, "(a, i0, a)") "bearing_", i, "_"
          taken = density*case%bearing_heat%heat_capacity*scalar_of(result, "mean_"//trim(name)//"oil_flow")*2.0_wp &
             & *scalar_of(result, "mean_"//trim(name)//"temperature_rise")
@@ -257,6 +258,58 @@ contains
       if (allocated(error)) return
       call check(error, failure%kind == kind_domain .and. index(failure%message, "rub the more the warmer") > 0, failure%message)
    end subroutine test_rubbing
+
+   !> Cold oil under a pulled belt: at the lowest balance nothing rubs, so that the coefficient of asperities hardly matters
+   subroutine test_lowest(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Rise in the bearing beside the belt with less and more boundary friction [K]
+      real(wp) :: rises(2)
+      integer :: bearings, i
+
+      do bearings = 1, 2
+         call get_deck_case("decks/mixed_bearings.nml", case, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         case%bearing_heat = bearing_heat_t(heat_capacity=2000.0_wp, oil_share=1.0_wp)
+         if (bearings == 1) then
+            case%operating_point = operating_point_t(speed=87.0_wp*two_pi/60.0_wp, oil_temperature=246.25_wp)
+            case%cam_bearings%law = "short_ocvirk"
+            call set_bearings(15.7e-3_wp, 9.216e-3_wp, 14.79e-6_wp, 0.7892e-6_wp, 2103.0_wp)
+         else
+            case%operating_point = operating_point_t(speed=600.0_wp*two_pi/60.0_wp, oil_temperature=258.15_wp)
+            call set_bearings(25.0e-3_wp, 7.0e-3_wp, 16.0e-6_wp, 0.6e-6_wp, 1500.0_wp)
+         end if
+         do i = 1, 2
+            case%bearing_asperity%boundary_coefficient = merge(0.05_wp, 0.15_wp, i == 1)
+            call run(case, result, error)
+            if (.not. allocated(error)) call check_balance(case, result, usual, 0.1_wp, error)
+            if (allocated(error)) return
+            rises(i) = scalar_of(result, "mean_bearing_1_temperature_rise")
+         end do
+         ! Of the first the other balances are at 91 and 146 K with a coefficient of 0.08, of the second at 126 K with 0.14
+         call check(error, rises(1) > 10.0_wp .and. rises(1) < 40.0_wp .and. abs(rises(2)/rises(1) - 1.0_wp) < 1.0e-3_wp, &
+            & "rises of "//number_text(rises(1))//" and "//number_text(rises(2))//" K")
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> Bearings and pull of the belt.
+      subroutine set_bearings(diameter, width, clearance, roughness, force)
+         !> Diameter, width, radial clearance and roughness [m]; force [N]
+         real(wp), intent(in) :: diameter, width, clearance, roughness, force
+
+         case%cam_bearings%diameter = diameter
+         case%cam_bearings%width = width
+         case%cam_bearings%radial_clearance = clearance
+         case%bearing_asperity%roughness = roughness
+         case%belt_pull%force = force
+      end subroutine set_bearings
+
+   end subroutine test_lowest
 
    !> Joints whose friction reverses over a few degrees, bearings whose asperities touch: what is steep lies between the stops
    subroutine test_accuracy(error)
