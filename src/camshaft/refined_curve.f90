@@ -2,7 +2,7 @@
 !>
 !> In: model and cycle of a lobe shape, its curve so far. Out: the curve with more pieces, where the cycle was solved for them.
 module camroller_refined_curve
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : two_pi, wp
    use camroller_cycle, only : cycle_t, state_at
    use camroller_error, only : error_t
    use camroller_lobe_curve, only : lobe_curve_t, add_piece, close_curve, contact_near, halve_pieces, keep_state, move_curve, &
@@ -48,7 +48,7 @@ contains
       call close_curve(curve, cycle%tolerance)
    end subroutine follow_steps
 
-   !> Halve the pieces of a follower's curve that are not good enough.
+   !> Halve the pieces of a follower's curve that are not good enough. Where they stay so, states are solved in their place.
    subroutine refine_curve(model, cycle, curve, error)
       !> Model of the lobe shape
       type(model_t), intent(in) :: model
@@ -59,18 +59,18 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Times that a piece is halved: what is left of a kink is a small part of the turn
-      integer, parameter :: most_halvings = 6
+      ! Length below which a piece is not halved, so that what is left of a kink is a small part of the turn [rad]
+      real(wp), parameter :: shortest = two_pi/3000.0_wp
       type(state_t) :: state
       type(lobe_curve_t) :: halved
       integer, allocatable :: halves(:)
       ! Cam angle from full lift [rad]
       real(wp) :: angle
-      integer :: pass, i, point, hint
+      integer :: i, point, hint
 
       hint = 1
-      do pass = 1, most_halvings
-         call halve_pieces(curve, halved, halves)
+      do
+         call halve_pieces(curve, shortest, halved, halves)
          if (size(halves) == 0) return
          do i = 1, size(halves)
             do point = 1, panel_points

@@ -128,25 +128,27 @@ contains
       end associate
    end subroutine close_curve
 
-   !> Halve the pieces whose polynomials are not good enough. `close_curve` has to judge the halves before a value is taken of them.
-   pure subroutine halve_pieces(curve, halved, halves)
+   !> Halve the pieces whose polynomials are not good enough, but for short ones. `close_curve` has to judge the halves before a value
+   !> is taken of them.
+   pure subroutine halve_pieces(curve, shortest, halved, halves)
       !> The curve
       type(lobe_curve_t), intent(in) :: curve
+      !> Length below which a piece stays whole [rad]
+      real(wp), intent(in) :: shortest
       !> The same with these pieces halved; nothing where there are none
       type(lobe_curve_t), intent(out) :: halved
       !> Pieces of it of which no states are kept yet
       integer, allocatable, intent(out) :: halves(:)
 
+      logical :: is_whole(curve%count)
       integer :: piece
 
       allocate (halves(0))
-      if (curve%count == 0) return
-      associate (is_good => all(curve%is_smooth(:, :curve%count), 1))
-         if (all(is_good)) return
-         call start_curve(halved, curve%ends(1), curve%count + count(.not. is_good), curve%has_force)
-      end associate
+      is_whole = [(all(curve%is_smooth(:, piece)) .or. curve%ends(piece + 1) - curve%ends(piece) < shortest, piece=1, curve%count)]
+      if (all(is_whole)) return
+      call start_curve(halved, curve%ends(1), curve%count + count(.not. is_whole), curve%has_force)
       do piece = 1, curve%count
-         if (all(curve%is_smooth(:, piece))) then
+         if (is_whole(piece)) then
             halved%values(:, :, halved%count + 1) = curve%values(:, :, piece)
             halved%contacts(:, :, halved%count + 1) = curve%contacts(:, :, piece)
          else

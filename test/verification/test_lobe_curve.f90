@@ -37,7 +37,7 @@ contains
          new_unittest("the fitted curve covers nearly the whole turn and agrees with the states", test_known), &
          new_unittest("intervals with a kink of the states have no fitted curve", test_bends), &
          new_unittest("the curve of a flexible train with lost contacts agrees with its states", test_flexible), &
-         new_unittest("a curve without an interval to halve is returned unchanged", test_nothing_to_halve), &
+         new_unittest("smooth and short pieces of a curve are not halved", test_nothing_to_halve), &
          new_unittest("without camshaft bearings there is no force, and torques are known where they are with them", test_absent), &
          new_unittest("points that tell how curves run miss no turn and no jump, and none is for rounding", test_telling), &
          new_unittest("the valves of a camshaft rest where none of its cams lifts one and no gas acts", test_rest) &
@@ -122,7 +122,7 @@ contains
       call check(error, known >= 0.99_wp, "hardly known")
    end subroutine test_flexible
 
-   !> A curve of equal states is smooth: it has nothing to halve, and is known afterwards.
+   !> A curve of equal states is smooth: it has nothing to halve, and is known afterwards. Of a rough one short pieces stay whole.
    subroutine test_nothing_to_halve(error)
       type(error_type), allocatable, intent(out) :: error
       type(lobe_curve_t) :: curve, halved
@@ -149,14 +149,24 @@ contains
          call add_piece(curve, two_pi*piece/8)
       end do
       call close_curve(curve, 1.0e-5_wp)
-      call halve_pieces(curve, halved, halves)
+      call halve_pieces(curve, 0.0_wp, halved, halves)
       call check(error, size(halves), 0)
       if (allocated(error)) return
       do piece = 1, 8
          call curve_at(curve, two_pi*(piece - 0.5_wp)/8, values, is_known)
          call check(error, all(is_known), "a smooth piece is no longer known")
          if (allocated(error)) return
+         do point = 1, panel_points
+            state%torques = (-1)**point
+            call keep_state(curve, model, state, point, piece)
+         end do
       end do
+      call close_curve(curve, 1.0e-5_wp)
+      call halve_pieces(curve, two_pi/7, halved, halves)
+      call check(error, size(halves), 0, "short pieces")
+      if (allocated(error)) return
+      call halve_pieces(curve, two_pi/9, halved, halves)
+      call check(error, size(halves), 16, "long pieces")
    end subroutine test_nothing_to_halve
 
    !> Bearings ask for the force and change neither the torques of the curve nor where they are known.
