@@ -15,7 +15,7 @@ module camroller_journal
    private
 
    public :: cam_bearings_t, journal_t, journal_law_names, law_long, law_short, law_finite
-   public :: new_journal, journal_at_speed, law_covers_width, width_advice
+   public :: new_journal, journal_at_speed, with_shear, law_covers_width, width_advice
    public :: journal_solved, journal_without_film, find_tangent, film_friction, film_t, film_at
    public :: journal_motion_names, motion_quasi_steady, motion_orbit, law_can_orbit, orbit_advice, moves_like_finite, &
       & is_short
@@ -204,6 +204,20 @@ contains
       journal%unit_load = shear/journal%clearance_ratio
       journal%petroff_friction = 2.0_wp*pi*shear
    end function journal_at_speed
+
+   !> A bearing where viscosity times speed is another.
+   pure function with_shear(journal, ratio) result(other)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Viscosity times speed over those that it has [-]
+      real(wp), intent(in) :: ratio
+      !> With that
+      type(journal_t) :: other
+
+      other = journal
+      other%unit_load = ratio*journal%unit_load
+      other%petroff_friction = ratio*journal%petroff_friction
+   end function with_shear
 
    !> Friction of the film on the journal: shear, and half of the moment of the load beside the centre, `1/2 W (c/r) e sin A` with
    !> the attitude angle A. The bearing has as much less, which the shaft does not feel.

@@ -16,11 +16,11 @@ module camroller_pin_film
    use camroller_names, only : name_length, find_name
    use camroller_bearing_asperity, only : bearing_asperity_t, bearing_touch_t, balance_t, new_touch, balance_load
    use camroller_journal, only : journal_t, find_tangent, journal_at_speed, journal_law_names, &
-      & journal_solved, law_covers_width, width_advice
+      & journal_solved, law_covers_width, width_advice, with_shear
    implicit none
    private
 
-   public :: pin_film_t, pin_part_t, pin_state_t, pin_law_names, new_pin_part, set_pin_oil, unloaded_torque, &
+   public :: pin_film_t, pin_part_t, pin_state_t, pin_law_names, new_pin_part, set_pin_oil, pin_journal, unloaded_torque, &
       & solve_pin
 
    !> Laws for the film of a pin
@@ -106,6 +106,18 @@ contains
       part%viscosity = viscosity
    end subroutine set_pin_oil
 
+   !> The bearing of a pin in the oil that it has.
+   pure function pin_journal(part, spin) result(journal)
+      !> The pin
+      type(pin_part_t), intent(in) :: part
+      !> Spin of the roller relative to the pin [rad/s]
+      real(wp), intent(in) :: spin
+      !> The bearing
+      type(journal_t) :: journal
+
+      journal = with_shear(part%journal, part%viscosity*abs(spin))
+   end function pin_journal
+
    !> Torque on a roller without load against its spin, over the spin: Petroff's.
    pure function unloaded_torque(part) result(torque)
       !> The pin
@@ -177,8 +189,7 @@ contains
       type(journal_t) :: journal
       integer :: status
 
-      journal = part%journal
-      journal%unit_load = shear*journal%unit_load
+      journal = with_shear(part%journal, shear)
       call find_tangent(journal, load, t, status)
       if (status == journal_solved .and. t > 0.0_wp) call balance_load(journal, part%touch, load, t, balance, status)
    end subroutine hold_pin

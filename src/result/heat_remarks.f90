@@ -1,5 +1,5 @@
-!> Remarks on heat that a case leaves out: oil that friction would warm in the bearings of the camshaft, or in the inlets of
-!> contacts, by so much that films and friction are other ones.
+!> Remarks on heat that a case leaves out: oil that friction would warm in the bearings of the camshaft, between roller and pin, or
+!> in the inlets of contacts, by so much that films and friction are other ones.
 !>
 !> In: a solved case, its summary, mean torques and films of its bearings. Out: remarks, one line of each kind. They are estimates
 !> of what `&bearing_heat` and `&heat` compute, from one bearing and one contact for all.
@@ -9,11 +9,12 @@ module camroller_heat_remarks
    use camroller_catalogue, only : lobe_prefix
    use camroller_error, only : error_t
    use camroller_journal, only : film_at, film_friction, find_tangent, journal_solved, journal_t, journal_without_film, &
-      & new_journal
+      & with_shear
    use camroller_heat, only : heat_t, inlet_factor, inlet_murch_wilson
    use camroller_lubricant, only : density_at, get_oil, law_direct, oil_t, temperature_law_names
    use camroller_number_text, only : number_text
-   use camroller_remarks, only : add_remark, cool_bearings, cool_inlet
+   use camroller_pin_film, only : pin_journal
+   use camroller_remarks, only : add_remark, cool_bearings, cool_inlet, cool_pin
    use camroller_result, only : find_quantity, result_t
    use camroller_sampled_extremes, only : samples_t
    use camroller_shaft, only : bearing_number, solved_t
@@ -45,6 +46,9 @@ contains
       if (solved%case%lubricant%temperature_law == temperature_law_names(law_direct)) return
       if (allocated(solved%shaft%bearings) .and. .not. allocated(solved%case%bearing_heat)) call judge_bearing_oil(solved, films, &
          & torques, result)
+      if (allocated(solved%models(1)%bearing)) then
+         if (allocated(solved%models(1)%bearing%film)) call judge_pins(solved, result)
+      end if
       if (.not. allocated(solved%case%heat)) call judge_inlets(solved, result)
    end subroutine judge_heat
 
@@ -79,7 +83,7 @@ contains
                   & torques(k)*abs(shaft%speed), number*oil_flow(shaft%journal, shaft%speed, eccentricities(k)))
             end do
          end associate
-         call warm_bearing(solved, eccentricities(maxloc(rises, 1)), maxval(rises), rise, part)
+         call warm_bearing(solved, shaft%journal, eccentricities(maxloc(rises, 1)), maxval(rises), rise, part)
          if (part > worth_a_word) return
          call add_remark(result%remarks, cool_bearings, "the oil in the bearings of the camshaft is taken at the temperature "// &
             & "of the supply; friction would warm it by about "//number_text(rise, 2)//" K, and that of "// &
@@ -87,11 +91,67 @@ contains
       end associate
    end subroutine judge_bearing_oil
 
-   !> Temperature at which the oil carries the friction of a bearing off, by bisection.
-   subroutine warm_bearing(solved, eccentricity, cold, rise, part)
+   !> Oil between a roller and its plain pin, of the lobe shape where it would warm the most: by mean torque, spin and eccentricity, as
+   !> for bearings of the camshaft.
+   subroutine judge_pins(solved, result)
       !> The solved case
       type(solved_t), intent(in) :: solved
-      !> Eccentricity of the bearing with the oil of the supply [-]; rise of the temperature with friction and flow there [K]
+      !> Gets the remark; has its summary
+      type(result_t), intent(inout) :: result
+
+      type(journal_t) :: journal
+      ! Mean torque [N m], spin [rad/s] and eccentricity [-]; rise with the viscosity of the oil around, with its own, the largest [K];
+      ! friction over that with the oil around, that of the largest rise [-]
+      real(wp) :: torque, spin, eccentricity, cold, rise, largest, part, left
+      integer :: lobe
+
+      largest = 0.0_wp
+      left = 1.0_wp
+      associate (case => solved%case, pin => solved%case%needle_bearing%film)
+         if (.not. flow_covers_width(pin%law, pin%width, 2.0_wp*solved%models(1)%bearing%radius)) return
+         do lobe = 1, size(solved%models)
+            torque = mean_of("torque_needle")
+            spin = mean_of("roller_spin")
+            eccentricity = mean_of("pin_eccentricity")
+            journal = pin_journal(solved%models(lobe)%bearing%film, spin)
+            cold = temperature_rise(bearing_heat_t(), density_at(case%lubricant, case%operating_point%oil_temperature), &
+               & torque*case%operating_point%speed, oil_flow(journal, spin, eccentricity))
+            call warm_bearing(solved, journal, eccentricity, cold, rise, part)
+            if (rise <= largest) cycle
+            largest = rise
+            left = part
+         end do
+      end associate
+      if (left > worth_a_word) return
+      call add_remark(result%remarks, cool_pin, "the oil between roller and pin is taken as cold as the oil around; friction "// &
+         & "would warm it by about "//number_text(largest, 2)//" K, and that of the film be about "//number_text(left, 2)// &
+         & " of what it is; no group computes it, and the pin's friction stated is too large", 1.0_wp/left)
+
+   contains
+
+      !> Mean of a quantity of the lobe shape; zero where there is none.
+      function mean_of(name) result(mean)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> The mean [unit of the quantity]
+         real(wp) :: mean
+
+         integer :: place
+
+         mean = 0.0_wp
+         place = find_quantity(result%summary, "mean_"//trim(lobe_prefix(lobe))//name)
+         if (place > 0) mean = result%summary_values(place)
+      end function mean_of
+
+   end subroutine judge_pins
+
+   !> Temperature at which the oil carries the friction of a bearing off, by bisection.
+   subroutine warm_bearing(solved, cold_journal, eccentricity, cold, rise, part)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The bearing with the oil of the supply
+      type(journal_t), intent(in) :: cold_journal
+      !> Its eccentricity [-]; rise of the temperature with friction and flow there [K]
       real(wp), intent(in) :: eccentricity, cold
       !> Rise that goes with friction and flow at its temperature [K]
       real(wp), intent(out) :: rise
@@ -112,21 +172,22 @@ contains
       rise = 0.0_wp
       part = 1.0_wp
       if (cold < least .or. .not. (eccentricity > 0.0_wp .and. eccentricity < 1.0_wp)) return
-      associate (case => solved%case, shaft => solved%shaft)
+      associate (case => solved%case)
          t = eccentricity/sqrt((1.0_wp - eccentricity)*(1.0_wp + eccentricity))
-         journal = shaft%journal
-         associate (film => film_at(journal, t))
-            load = journal%unit_load*film%number
+         associate (film => film_at(cold_journal, t))
+            load = cold_journal%unit_load*film%number
          end associate
-         friction = film_friction(journal, load, t)
+         friction = film_friction(cold_journal, load, t)
          low = 0.0_wp
          high = min(cold, largest)
          do i = 1, steps
             rise = 0.5_wp*(low + high)
             call get_oil(case%lubricant, case%operating_point%oil_temperature + rise, oil, error)
-            if (.not. allocated(error)) call new_journal(journal, shaft%bearings, oil%viscosity, shaft%speed, error)
             status = journal_without_film
-            if (.not. allocated(error)) call find_tangent(journal, load, t, status)
+            if (.not. allocated(error)) then
+               journal = with_shear(cold_journal, oil%viscosity/solved%models(1)%oil%viscosity)
+               call find_tangent(journal, load, t, status)
+            end if
             ! Hotter than laws of the oil or the bearing go
             if (status /= journal_solved) then
                high = rise
