@@ -4,8 +4,8 @@
 !> over the turn, from wherever. Out: its temperature, orbit, and means.
 !> The temperature of a bearing's oil is a root of `T = T_supply + rise(T)`. Where an oil film bears, friction falls and the flow of
 !> oil rises with the temperature: there is one root, below the rise that would follow at the supply's temperature. Where asperities
-!> rub, friction rises with the temperature, and there may be none or several: the lowest, at which oil that warms stays, is looked for
-!> upwards from the supply's temperature in steps.
+!> rub, friction rises with the temperature, and there may be none or several: the lowest, at which oil that warms stays, is looked
+!> for upwards from the supply's temperature in steps.
 module camroller_bearing_turn
    use camroller_kinds, only : wp
    use camroller_bearing_heat, only : bearing_heat_t, check_bearing_heat, direct_advice, temperature_rise

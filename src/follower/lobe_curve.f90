@@ -128,8 +128,8 @@ contains
       end associate
    end subroutine close_curve
 
-   !> Halve the pieces whose polynomials are not good enough, but for short ones. `close_curve` has to judge the halves before a value
-   !> is taken of them.
+   !> Halve the pieces whose polynomials are not good enough, but for short ones. `close_curve` has to judge the halves before a
+   !> value is taken of them.
    pure subroutine halve_pieces(curve, shortest, halved, halves)
       !> The curve
       type(lobe_curve_t), intent(in) :: curve

@@ -91,8 +91,8 @@ contains
       end associate
    end subroutine judge_bearing_oil
 
-   !> Oil between a roller and its plain pin, of the lobe shape where it would warm the most: by mean torque, spin and eccentricity, as
-   !> for bearings of the camshaft.
+   !> Oil between a roller and its plain pin, of the lobe shape where it would warm the most: by mean torque, spin and eccentricity,
+   !> as for bearings of the camshaft.
    subroutine judge_pins(solved, result)
       !> The solved case
       type(solved_t), intent(in) :: solved
@@ -100,8 +100,8 @@ contains
       type(result_t), intent(inout) :: result
 
       type(journal_t) :: journal
-      ! Mean torque [N m], spin [rad/s] and eccentricity [-]; rise with the viscosity of the oil around, with its own, the largest [K];
-      ! friction over that with the oil around, that of the largest rise [-]
+      ! Mean torque [N m], spin [rad/s] and eccentricity [-]; rise with the viscosity of the oil around, with its own, the largest
+      ! [K]; friction over that with the oil around, that of the largest rise [-]
       real(wp) :: torque, spin, eccentricity, cold, rise, largest, part, left
       integer :: lobe
 
