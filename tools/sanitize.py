@@ -29,7 +29,7 @@ LEAK = re.compile(r"^Direct leak of (\d+) byte.*\n(?:\s+#0 .*\n)\s+#1 \S+ in (\S
 ADDRESSES = re.compile(r" (?:on address |at pc |bp |sp )0x[0-9a-f]+")
 SECONDS = 1200  # for one command
 # Libraries of others, which keep what they allocate once
-SUPPRESSIONS = "leak:libhdf5\nleak:libopenblas\nleak:libgomp\nleak:libgfortran\nleak:ld-linux\n"
+SUPPRESSIONS = "leak:libhdf5\nleak:H5\nleak:libopenblas\nleak:libgomp\nleak:libgfortran\nleak:ld-linux\n"
 # Suites that draw many cases at random or measure: hours with checks, and the same code as the others
 LONG_SUITES = {"random_cases", "random_ehl", "needed", "ehl_rough"}
 

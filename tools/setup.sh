@@ -32,13 +32,36 @@ has_hdf5() {
     [ -f "${directory:-/usr/include}/hdf5.mod" ]
 }
 
-# Where HDF5 is there with and without MPI, the serial one is linked: pkg-config then looks in build/pkgconfig first.
-serial_hdf5() {
-    local folder
-    folder=$(pkg-config --variable=pcfiledir hdf5-serial 2> /dev/null) || return 0
-    [ -f "$folder/hdf5-serial.pc" ] || return 0
-    mkdir -p build/pkgconfig
-    ln -sf "$folder/hdf5-serial.pc" build/pkgconfig/hdf5.pc
+# What programs are linked with, of which pkg-config hears in build/pkgconfig first: where HDF5 is there with and without MPI, the serial
+# one; where its static libraries are there, these: the shared one brings 40 others into a process, for files on web servers, which takes
+# three times as long as all else of its start. The linker takes a text of that form in the place of a library.
+hdf5_to_link() {
+    local package=hdf5 names=(hdf5hl_fortran hdf5_fortran hdf5_hl hdf5) target=build/pkgconfig
+    local folder file name static=()
+    local -x PKG_CONFIG_PATH=${PKG_CONFIG_PATH-}
+    PKG_CONFIG_PATH=${PKG_CONFIG_PATH#"$PWD/$target:"}
+    ! pkg-config --exists hdf5-serial 2> /dev/null || package=hdf5-serial
+    file=$(pkg-config --variable=pcfiledir $package)/$package.pc
+    folder=$(pkg-config --libs-only-L $package | tr -s ' ' '\n' | sed -n 's/^-L//p' | head -n 1)
+    mkdir -p $target
+    for name in "${names[@]}"; do
+        if [ -f "${folder:-/usr/lib}/lib$name.a" ]; then static+=("${folder:-/usr/lib}/lib$name.a"); fi
+    done
+    if [ ${#static[@]} = ${#names[@]} ] && [ -f "${folder:-/usr/lib}/libhdf5.so" ]; then
+        sed 's/^Libs:.*/Libs: -L${pcfiledir} -lhdf5/' "$file" | keep $target/hdf5.pc
+        { echo "GROUP ( ${static[*]}"
+          echo "AS_NEEDED ( $(ldd "${folder:-/usr/lib}/libhdf5.so" | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p' | tr '\n' ' ')) )"
+        } | keep $target/libhdf5.a
+        for name in "${names[@]}"; do [ $name = hdf5 ] || ln -sfn libhdf5.a $target/lib$name.a; done
+    elif [ -f "$file" ] && [ $package = hdf5-serial ]; then
+        ln -sfn "$file" $target/hdf5.pc
+    fi
+}
+
+# Write a file of what comes in, unless it is there and the same.
+keep() { # file
+    cat > "$1.part"
+    if [ ! -L "$1" ] && cmp -s "$1.part" "$1"; then rm "$1.part"; else mv -f "$1.part" "$1"; fi
 }
 
 system_packages() {
@@ -142,6 +165,6 @@ has_checksums() { # folder
 mkdir -p build
 system_packages
 optional_packages
-serial_hdf5
+hdf5_to_link
 python_tools
 test_drive

@@ -61,7 +61,7 @@ def run_set_up(top, apt_get=None, has_mpi=True, has_gfortran=False):
     (top / "tools/setup.sh").write_bytes((ROOT / "tools/setup.sh").read_bytes())
     (top / "tools/setup.sh").chmod(0o755)
     for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "tee", "mkdir", "ln", "cmp", "git", "make", "gcc", "pkg-config", "grep",
-                 "sha256sum", "timeout", "mv", "rm", "tar", "gzip", "cat"):
+                 "sha256sum", "timeout", "mv", "rm", "tar", "gzip", "cat", "ldd"):
         found = subprocess.run(["bash", "-c", f"command -v {name}"], capture_output=True, text=True, check=False).stdout
         if found.strip():
             (folder / name).symlink_to(pathlib.Path(found.strip()))
@@ -76,6 +76,13 @@ def run_set_up(top, apt_get=None, has_mpi=True, has_gfortran=False):
     environment = {"PATH": str(folder), "HOME": str(folder)}
     return subprocess.run([top / "tools/setup.sh"], env=environment, capture_output=True, text=True, check=False,
                           stdin=subprocess.DEVNULL)
+
+
+def test_a_process_starts_without_the_libraries_of_files_on_web_servers(camroller):
+    if not (ROOT / "build/pkgconfig/libhdf5.a").is_file():
+        pytest.skip("HDF5 has no static libraries here")
+    libraries = subprocess.run(["ldd", camroller], capture_output=True, text=True, check=True).stdout
+    assert "libgfortran" in libraries and "libhdf5" not in libraries and "libcurl" not in libraries
 
 
 def test_set_up_names_what_is_missing(tmp_path):
