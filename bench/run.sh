@@ -51,7 +51,8 @@ if [ "${1:-all}" = range ]; then
     exit 0
 fi
 
-folder=$(pkg-config --libs-only-L hdf5)
+# the system's own: static libraries, which programs have, do not go into a shared one
+folder=$(PKG_CONFIG_PATH='' pkg-config --libs-only-L hdf5-serial 2> /dev/null || PKG_CONFIG_PATH='' pkg-config --libs-only-L hdf5)
 hdf5=()
 for name in hdf5hl_fortran hdf5_hl_fortran hdf5_fortran hdf5_hl hdf5; do
     if gfortran -shared -o "$target/found.so" $folder "-l$name" 2> /dev/null; then hdf5+=("-l$name"); fi
