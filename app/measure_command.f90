@@ -7,7 +7,7 @@ module camroller_measure_command
    use camroller_error, only : error_t, add_context
    use camroller_audit, only : new_audit_table, audit_case
    use camroller_audit_page, only : write_audit_page
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, select_names, select_needed
    use camroller_case_writer, only : tally_t
    use camroller_cli, only : config_t
    use camroller_command_table, only : command_t, find_command, find_option, list_commands
@@ -24,6 +24,7 @@ module camroller_measure_command
    use camroller_console, only : console_t, seconds_since, start_console, tell_deck_remarks
    use camroller_run_command, only : check_cases, find_place
    use camroller_run_facts, only : write_facts
+   use camroller_settings, only : get_word
    use camroller_streams, only : print_lines, tell
    use camroller_study, only : new_study_table, study_case, study_film
    use camroller_study_file, only : write_study, close_study
@@ -58,11 +59,22 @@ contains
          call read_deck(deck, config%subject, config%overrides, error, columns)
          if (allocated(error)) return
          call tell_deck_remarks(deck)
+         call tell_choice(deck)
          call show_laws(deck, error)
       else
          call measure_deck(config, merge(of_film, of_accuracy, config%is_film), error)
       end if
    end subroutine study_deck
+
+   !> Tell that a study takes all effects of a deck.
+   subroutine tell_choice(deck)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+
+      if (get_word(deck%settings, "effects", "select") == select_names(select_needed)) call tell("remark: effects.select = '"// &
+         & trim(select_names(select_needed))//"' has no effect here: all that is compared has all effects of the deck"// &
+         & new_line("a"))
+   end subroutine tell_choice
 
    !> Print what each film law makes of the cases.
    subroutine show_laws(deck, error)
@@ -175,6 +187,7 @@ contains
       if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call find_place(config, deck, result_kind, trim(endings(what)), path, error)
       if (allocated(error)) return
+      if (what /= of_effects .and. .not. config%is_quiet) call tell_choice(deck)
       call start_console(progress, config%is_quiet)
       call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)

@@ -41,7 +41,7 @@ module camroller_case
 
    public :: case_t, operating_point_t, numerics_t, selection_t, camshaft_number, has_engine, gas_force_of, check_bookkeeping, &
       & energy_names, energy_source, contact_policy_names, quasi_static, method_choices, automatic_method, select_names, &
-      & select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
+      & select_listed, select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
 
    !> Name of the model that takes the roller's spin from its quasi-static balance
    character(len=name_length), parameter :: quasi_static = "quasi_static"
@@ -61,8 +61,8 @@ module camroller_case
 
    !> Effects that take part: all that are listed, or those of them that matter
    character(len=*), parameter :: select_names(*) = [character(len=name_length) :: "listed", "needed"]
-   !> Position in `select_names`
-   integer, parameter :: select_needed = 2
+   !> Positions in `select_names`
+   integer, parameter :: select_listed = 1, select_needed = 2
    !> What an effect has to matter for: mean torque for all losses, smallest film of the cycle, slip per revolution
    character(len=*), parameter :: quantity_names(*) = [character(len=name_length) :: "mean_torque", "minimum_film", "slip"]
    !> Positions in `quantity_names`

@@ -21,7 +21,7 @@ module camroller_model
    use camroller_flexible_setup, only : base_load, check_ball, set_flexible
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at
-   use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
+   use camroller_film, only : film_law_names, range_policy_names, range_stop, law_masjedi_khonsari_rough, law_table
    use camroller_film_table, only : film_table_t
    use camroller_ehl_problem, only : largest_dry_pressure, speed_range, load_range
    use camroller_ehl_table, only : ehl_t, build_film_table
@@ -326,7 +326,7 @@ contains
       model%takes_maximum_load = choice == 2
       call find_name("range policy", case%film%range_policy, range_policy_names, choice, error)
       if (allocated(error)) return
-      model%stops_outside_range = choice == 2
+      model%stops_outside_range = choice == range_stop
       call find_name("contact policy", case%contact_policy, contact_policy_names, choice, error)
       if (allocated(error)) return
       model%stops_without_contact = choice == 2

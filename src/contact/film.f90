@@ -19,7 +19,7 @@ module camroller_film
    implicit none
    private
 
-   public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names
+   public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names, range_stop
    public :: film_shape, new_film_line, film_at_load, log_films_at_load, is_in_range, takes_whole_load, published_range, &
       & asperity_part, group_count, group_values, warm_speed, speed_by_factor
    public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes, law_table
@@ -34,6 +34,8 @@ module camroller_film
    integer, parameter :: law_table = size(film_law_names) + 1
    !> What to do where a law is used outside its published range
    character(len=*), parameter :: range_policy_names(*) = [character(len=name_length) :: "warn", "stop"]
+   !> Position in `range_policy_names`
+   integer, parameter :: range_stop = 2
 
    !> Choice of the film law
    type :: film_t

@@ -73,6 +73,7 @@ module camroller_key_uses
       key_use_t("lubricant.roelands_index", "pressure_viscosity_coefficient_per_GPa", not_given), &
       key_use_t("film.law", "&ehl", not_given), &
       key_use_t("film.law", "ehl.profiles", yes), &
+      key_use_t("film.law", "effects.select", "needed"), &
       key_use_t("film.law", "camroller ehl", by_command), &
       key_use_t("ehl.shear_thinning", "profiles", yes), &
       key_use_t("ehl.shear_thinning", "camroller ehl", by_command), &

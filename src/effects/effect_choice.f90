@@ -14,11 +14,13 @@ module camroller_effect_choice
    use camroller_case, only : case_t, quasi_static, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
       & quantity_slip
    use camroller_effect_bearings, only : mean_bearing_torque
-   use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_dynamics, effect_spin, &
-      & has_effect, has_single_cam, is_part_of_train, leave_out, needs_bearings
+   use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_asperity, effect_bearings, &
+      & effect_dynamics, effect_ehl, effect_film, effect_spin, has_effect, has_single_cam, is_part_of_train, leave_out, &
+      & needs_bearings
    use camroller_effect_reasons, only : find_reason, find_train_reason
    use camroller_effect_survey, only : survey_t, response_t, make_survey, respond
    use camroller_effect_train, only : compare_trains, estimate_train, train_change_t, train_load_t
+   use camroller_film, only : range_policy_names, range_stop
    use camroller_model, only : model_t, revise_model
    use camroller_shaft, only : needs_turn
    implicit none
@@ -196,6 +198,10 @@ contains
       decision%is_used = .true.
       decision%estimates = huge(1.0_wp)
       decision%reason = ""
+      if (effect == effect_asperity .and. allocated(case%wear)) decision%reason = "not estimated: they make the wear that is "// &
+         & "asked for"
+      if (any(effect == [effect_film, effect_ehl]) .and. case%film%range_policy == range_policy_names(range_stop)) &
+         & decision%reason = "not estimated: a simpler law outside its range would end the run, by film.range_policy"
       if (effect == effect_bearings) call weigh_bearings(case, surveys, torque, decision)
       if (any(effect == needs_bearings)) call weigh_bearing_part(case, models, surveys, torque, decision)
       lobe = 1
@@ -216,6 +222,7 @@ contains
             call find_responses(case, models, surveys, effect, responses, error)
             if (allocated(error)) return
             call set_estimates(case, surveys(1), responses, torque, choice, decision)
+            if (allocated(case%cam_bearings)) call add_bearings(case, models(1), responses, torque, decision)
          end if
       end if
       choice%decisions = [choice%decisions, decision]
@@ -309,6 +316,37 @@ contains
       decision%estimates(quantity_slip) = relative(responses(1)%sliding, abs(survey%slip) - survey%slip_error)
       where (decision%estimates > largest_estimate) decision%estimates = huge(1.0_wp)
    end subroutine set_estimates
+
+   !> Camshaft bearings feel what changes the load: a single cam's are solved with the other load; those of several follow it no
+   !> more than in proportion.
+   subroutine add_bearings(case, model, responses, torque, decision)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of the first lobe shape
+      type(model_t), intent(in) :: model
+      !> How the cycle of each answers
+      type(response_t), intent(in) :: responses(:)
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
+      !> Gets a larger estimate of the torque
+      type(decision_t), intent(inout) :: decision
+
+      type(error_t), allocatable :: failure
+      ! Mean torque of the bearings without the effect [N m]
+      real(wp) :: without
+
+      associate (estimate => decision%estimates(quantity_torque))
+         if (estimate > largest_estimate) return
+         if (has_single_cam(case) .and. .not. allocated(torque%trouble)) then
+            call mean_bearing_torque(case, model, responses(1)%changed, needs_turn(case), without, failure)
+            estimate = estimate + relative(abs(torque%bearings - without), least_torque(torque))
+            if (allocated(failure)) estimate = huge(1.0_wp)
+         else
+            estimate = max(estimate, margin*maxval(responses%load))
+         end if
+         if (estimate > largest_estimate) estimate = huge(1.0_wp)
+      end associate
+   end subroutine add_bearings
 
    !> How every lobe's cycle answers to a case without an effect.
    subroutine find_responses(case, models, surveys, effect, responses, error)

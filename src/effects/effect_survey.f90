@@ -70,6 +70,10 @@ module camroller_effect_survey
       real(wp) :: film
       !> Mean magnitude of the change of the sliding speed [m/s]
       real(wp) :: sliding
+      !> Mean magnitude of the change of the load over the mean load [-]
+      real(wp) :: load
+      !> The cycle after the change, but for its sliding speeds
+      type(survey_t), allocatable :: changed
       !> Evaluations of the contact
       integer :: evaluations
    end type response_t
@@ -223,6 +227,7 @@ contains
       response%torque = 0.0_wp
       response%film = 0.0_wp
       response%sliding = 0.0_wp
+      response%load = 0.0_wp
       response%evaluations = points
       call look(survey, other, survey%sliding, moments, first, decay, is_fine)
       if (.not. is_fine) return
@@ -314,6 +319,11 @@ contains
       response%sliding = mean_over(survey%grid, slips) + sampling_error(survey%grid, slips)
       reach = near_smallest*max(minval(film(1::2)), minval(film(2::2)))
       response%film = maxval(films, mask=film - films <= reach)/minval(film)
+      associate (load => survey%states%contact%load)
+         response%load = mean_over(survey%grid, abs(second%contact%load - load))/mean_over(survey%grid, load)
+      end associate
+      response%changed = survey
+      response%changed%states = second
       response%is_known = .true.
    end subroutine sum_up
 

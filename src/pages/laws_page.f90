@@ -5,7 +5,7 @@
 module camroller_laws_page
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, select_listed, select_names
    use camroller_catalogue, only : lobe_prefix
    use camroller_film, only : film_law_names, law_masjedi_khonsari_rough
    use camroller_names, only : name_length
@@ -71,6 +71,7 @@ contains
       do law = 1, size(film_law_names)
          if (law == law_masjedi_khonsari_rough .and. .not. case%materials%hardness > 0.0_wp) cycle
          variant = case
+         variant%effects%select = select_names(select_listed)
          variant%film%law = film_law_names(law)
          variant%film%range_policy = "warn"
          if (allocated(variant%ehl)) deallocate (variant%ehl)

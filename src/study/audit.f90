@@ -5,7 +5,7 @@
 module camroller_audit
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise
-   use camroller_case, only : case_t, select_names
+   use camroller_case, only : case_t, select_listed, select_names, select_needed
    use camroller_effect_choice, only : choose_effects
    use camroller_effect_list, only : choice_t, decision_t, effect_names, effect_count, effect_bearings, effect_ehl, &
       & effect_rolling, has_effect, leave_all_but, leave_out, needs_bearings
@@ -79,7 +79,7 @@ contains
       integer :: i
 
       listed = case
-      listed%effects%select = select_names(1)
+      listed%effects%select = select_names(select_listed)
       call build_models(listed, models, error)
       if (.not. allocated(error)) call choose_effects(listed, models, variant, choice, error)
       if (allocated(error)) return
@@ -87,7 +87,7 @@ contains
       if (full%status /= 0) call raise(error, full%status, full%message)
       call add_outcome(table, position, run_listed, full, full, full)
       variant = listed
-      variant%effects%select = select_names(2)
+      variant%effects%select = select_names(select_needed)
       call run_trial(variant, repeats, outcome)
       call add_outcome(table, position, run_needed, full, full, outcome, choice=choice)
       do i = 1, size(choice%decisions)

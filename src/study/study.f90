@@ -7,7 +7,7 @@ module camroller_study
    use camroller_kinds, only : wp, degree, not_a_number
    use camroller_names, only : name_length
    use camroller_error, only : error_t, raise, add_context, kind_convergence
-   use camroller_case, only : case_t, automatic_method, quasi_static
+   use camroller_case, only : case_t, automatic_method, quasi_static, select_listed, select_names
    use camroller_number_text, only : integer_text, number_text
    use camroller_ode_methods, only : method_facts
    use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word
@@ -84,7 +84,8 @@ contains
       call add_numbers(table, "time", "s", "median processor time of a whole run", "study")
    end subroutine new_study_table
 
-   !> Every method over its tolerances or steps, and the accuracy that a deck asks for.
+   !> Every method over its tolerances or steps, and the accuracy that a deck asks for, all with the effects that the deck lists:
+   !> which of them a case needs depends on the method.
    subroutine study_case(table, position, case, repeats, is_quick, error)
       !> Table to extend
       type(study_table_t), intent(inout) :: table
@@ -99,6 +100,7 @@ contains
       !> Why there is no reference
       type(error_t), allocatable, intent(out) :: error
 
+      type(case_t) :: listed
       type(trial_t) :: reference, trial
       type(plan_t) :: plan
       type(way_t), allocatable :: ways(:)
@@ -106,13 +108,15 @@ contains
       real(wp) :: disagreement
       integer :: i
 
+      listed = case
+      listed%effects%select = select_names(select_listed)
       plan = plan_for(case)
-      call make_reference(plan, case, reference, disagreement, error)
+      call make_reference(plan, listed, reference, disagreement, error)
       call add_reference(table, position, "two methods", reference, disagreement, error)
       if (allocated(error)) return
       call list_ways(plan, ways, is_quick)
       do i = 1, size(ways)
-         call run_trial(apply_way(ways(i), case), repeats, trial)
+         call run_trial(apply_way(ways(i), listed), repeats, trial)
          call add_trial(table, position, ways(i), reference, trial, plan%smallest_error)
       end do
    end subroutine study_case
@@ -296,6 +300,7 @@ contains
       integer :: i
 
       follower = case
+      follower%effects%select = select_names(select_listed)
       if (allocated(follower%cam_bearings)) deallocate (follower%cam_bearings)
       if (.not. allocated(follower%ehl)) allocate (follower%ehl)
       follower%ehl%profiles = .false.

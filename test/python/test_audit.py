@@ -119,3 +119,54 @@ def test_check_prints_which_effects_are_left_out(camroller, folder):
     assert result.stdout.count("asperity            left out") == 1 and result.stdout.count("asperity            kept") == 1
     assert "film ratio from" in result.stdout
     assert "left out" not in run(camroller, "check", "two.nml", folder=folder).stdout
+
+
+SLOW_AND_HOT = ["operating_point.speed_rpm=200", "operating_point.oil_temperature_degC=95", "effects.select=needed"]
+
+
+def with_rubbing_bearings(text, cams=""):
+    """A deck with bearings of the camshaft that take most of the friction in slow, hot oil."""
+    return text[:text.index("&cam_bearings")] + f"""
+&cam_bearings law = 'finite' diameter_mm = 23 width_mm = 18 radial_clearance_um = 40 bearing_positions_mm = 0, 60
+   {cams or "cam_positions_mm = 30"} /
+&bearing_asperity roughness_um = 0.5 modulus_GPa = 110 boundary_coefficient = 0.1 /
+"""
+
+
+@pytest.mark.parametrize("cams", ["", "cam_positions_mm = 20, 40 cam_phases_deg = 0, 90"])
+def test_gas_force_stays_where_bearings_feel_it(camroller, tmp_path, cams):
+    """Rubbing bearings with three quarters of the friction lose a quarter of it without the gas, the contact nearly nothing."""
+    (tmp_path / "deck.nml").write_text(with_rubbing_bearings(THESIS, cams) + f"""
+&gas_force table = '{ROOT / "decks/tables/cylinder_pressure.txt"}' valve_diameter_mm = 28 /
+&effects select = 'needed' /
+""")
+    settings = [word for setting in SLOW_AND_HOT for word in ("--set", setting)]
+    for name, extra in (("needed", []), ("listed", ["--set", "effects.select=listed"])):
+        result = run(camroller, "run", "deck.nml", *settings, *extra, "-o", f"{name}.h5", "--quiet", folder=tmp_path)
+        assert result.returncode == 0, result.stderr
+    torques = []
+    for name in ("needed", "listed"):
+        with h5py.File(tmp_path / f"{name}.h5") as file:
+            torques.append(file["summary/mean_torque_friction"][0])
+    assert torques[0] == pytest.approx(torques[1], rel=1e-3)
+    printed = run(camroller, "check", "deck.nml", *settings, folder=tmp_path).stdout
+    estimate = next(line for line in printed.splitlines() if "gas_force   " in line).split()[3:]
+    assert estimate[0] == "large" or float(estimate[0]) > 0.24, estimate
+
+
+def test_asperities_stay_where_wear_is_asked_for(camroller, folder):
+    (folder / "wear.nml").write_text((folder / "one.nml").read_text() + "&wear cam_rate_mm3_N_m = 2e-7 roller_rate_mm3_N_m = 5e-7 /\n"
+                                     "&effects select = 'needed' negligible = 0.1 /\n")
+    assert run(camroller, "run", "wear.nml", "-o", "wear.h5", folder=folder).returncode == 0
+    with h5py.File(folder / "wear.h5") as file:
+        assert "cam_wear_per_turn" in file["series"] or "cam_wear_per_turn" in file["summary"]
+
+
+def test_a_film_law_stays_where_its_range_decides(camroller, folder):
+    """The simpler law would be outside its range and end the run."""
+    deck = with_rubbing_bearings(THESIS).replace("'dowson_higginson'", "'moes' range_policy = 'stop'")
+    (folder / "film.nml").write_text(deck + "&effects select = 'needed' negligible = 0.1 /\n")
+    settings = [word for setting in SLOW_AND_HOT for word in ("--set", setting)]
+    assert run(camroller, "run", "film.nml", *settings, "-o", "film.h5", folder=folder).returncode == 0
+    failed = run(camroller, "run", "film.nml", *settings, "--set", "film.law=dowson_higginson", "-o", "x.h5", folder=folder)
+    assert failed.returncode != 0 and "range_policy = 'stop'" in failed.stderr

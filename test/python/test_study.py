@@ -46,6 +46,23 @@ def test_turns_of_a_longer_period_are_not_compared(camroller, tmp_path):
     assert re.search("no reference: the motion of the train repeats after [24] cycles only", result.stderr)
 
 
+def test_a_study_takes_all_effects(camroller, tmp_path):
+    """A choice of effects would compare a law with itself."""
+    text = THESIS[:THESIS.index("&sweep")] + "&effects select = 'needed' negligible = 0.1 /\n"
+    (tmp_path / "deck.nml").write_text(text)
+    (tmp_path / "all.nml").write_text(text.replace("needed", "listed"))
+    for words in (["--laws"], [*QUICK]):
+        needed, listed = (study(camroller, name, *words, "-o", name[:3] + ".h5", folder=tmp_path) if "--laws" not in words else
+                          study(camroller, name, *words, folder=tmp_path) for name in ("deck.nml", "all.nml"))
+        assert needed.returncode == 0 and "effects.select = 'needed' has no effect here" in needed.stderr, needed.stderr
+        assert "has no effect here" not in listed.stderr
+        if "--laws" in words:
+            assert needed.stdout == listed.stdout
+    first, second = (read(tmp_path / name) for name in ("dec.h5", "all.h5"))
+    for name in ("error_mean_friction", "error_smallest_film", "evaluations"):
+        assert numpy.array_equal(first[name], second[name], equal_nan=True)
+
+
 @pytest.mark.parametrize("words", [["--quick", "--repeats", "1", "--set", "output.angle_step_deg=20"], ["--laws"]])
 def test_a_value_that_the_sweep_varies_has_a_remark(camroller, tmp_path, words):
     (tmp_path / "deck.nml").write_text(THESIS[:THESIS.index("&sweep")]
