@@ -268,7 +268,7 @@ contains
          call check(error, any(result%remarks%kind == hot_film) .eqv. i == 2, remark_lines(result%remarks))
          if (allocated(error)) return
          if (i == 2) call check(error, index(remark_lines(result%remarks), " K warmer than the oil, at cam angle ") > 0 .and. &
-            & index(remark_lines(result%remarks), " % below what the lubricant has; the oil of a hot film") > 0, &
+            & index(remark_lines(result%remarks), " % below what the lubricant has; the oil of a hot film is within 1 %") > 0, &
             & remark_lines(result%remarks))
          if (allocated(error)) return
       end do
