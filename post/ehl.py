@@ -80,6 +80,12 @@ def reach_of(data: dict, angles) -> float:
     return 1e6 * max(REACH * numpy.nanmax(data["half_width"]), 1.1 * place.max(where=loaded, initial=0.0))
 
 
+def mean_over_dry_contact(place: numpy.ndarray, profiles: numpy.ndarray) -> numpy.ndarray:
+    """Mean of each profile from -1 to 1 half widths, where nodes need not be: by trapezoids, as profiles are drawn."""
+    nodes = numpy.concatenate(([-1.0], place[numpy.abs(place) < 1], [1.0]))
+    return numpy.trapezoid([numpy.interp(nodes, place, profile) for profile in profiles], nodes, axis=1) / 2
+
+
 def profiles(pressure, film, data: dict, angles: list[float]) -> None:
     """Pressure and film across the contact at some angles."""
     top = 0.0
@@ -106,10 +112,8 @@ def temperatures(across, turning, data: dict, angles: list[float]) -> None:
     reach = reach_of(data, angles)
     across.set(ylabel="rise of the film's temperature [K]", xlim=(-reach, reach),
                xlabel=f"place across the contact, inlet on the left [{MICRO}m]")
-    inside = numpy.abs(data["x"]) <= 1
     turning.plot(data["angle"], data["film_rise"].max(axis=1), "k", label="largest across the contact")
-    turning.plot(data["angle"], numpy.trapezoid(data["film_rise"][:, inside], data["x"][inside], axis=1) / 2, "k--",
-                 label="mean over the dry contact")
+    turning.plot(data["angle"], mean_over_dry_contact(data["x"], data["film_rise"]), "k--", label="mean over the dry contact")
     turning.set(ylabel="rise of the film's temperature [K]", xlabel=ANGLE)
 
 

@@ -14,6 +14,7 @@ import sys
 import numpy as np
 
 from command import run
+from ehl import mean_over_dry_contact
 from layout import POINT
 from read import ResultError, opened
 from units import number
@@ -57,8 +58,7 @@ def rows(heated: dict[str, np.ndarray], isothermal: dict[str, np.ndarray]) -> li
         local, mean, taken = "-", "-", "-"
         if touching.any():
             place, rise = heated["x"][case], heated["solved_rise"][case][touching]
-            inside = np.abs(place) <= 1.0
-            local, mean = number(rise.max()), number(np.trapezoid(rise[:, inside], place[inside], axis=1).max() / 2.0)
+            local, mean = number(rise.max()), number(mean_over_dry_contact(place, rise).max())
             taken = mean_and_largest(100.0 * (1.0 - warm[touching] / cold[touching]))
         table.append([*row, number(heated["film_temperature_rise"][case].max()), mean, local, mean_and_largest(formula), taken])
     return table

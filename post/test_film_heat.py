@@ -28,6 +28,15 @@ def test_rows_hold_what_contacts_tell():
     assert lost == ["600", "", "3", "-", "-", "5.0, 10.0", "-"]
 
 
+def test_the_mean_reaches_to_the_ends_of_the_dry_contact_between_nodes():
+    heated, cold = made_up()
+    heated["x"] = np.array([[-2.0, -0.6, 0.0, 0.5, 2.0]] * 2)
+    # From -2 to -0.6 along a straight line from 0 to 2, so 10/7 at -1; from 0.5 to 2 back to 0, so 4/3 at 1
+    heated["solved_rise"][0, 1] = [0.0, 2.0, 2.0, 2.0, 0.0]
+    mean = 0.5 * (0.4 * (2.0 + 10.0 / 7.0) / 2.0 + 1.1 * 2.0 + 0.5 * (2.0 + 4.0 / 3.0) / 2.0)
+    assert film_heat.rows(heated, cold)[0][3] == film_heat.number(mean)
+
+
 def test_speed_and_oil_that_are_not_swept_are_those_of_the_deck(tmp_path):
     heated, _ = made_up()
     with h5py.File(tmp_path / "a.h5", "w") as file:

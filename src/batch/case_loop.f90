@@ -24,6 +24,7 @@ module camroller_case_loop
    use camroller_effect_words, only : choice_in_words
    use camroller_monitor, only : monitor_t
    use camroller_number_text, only : counted, integer_text
+   use camroller_profile_remarks, only : judge_hot_profiles
    use camroller_record, only : record_t
    use camroller_result, only : result_t
    use camroller_run, only : run_next_case
@@ -362,7 +363,9 @@ contains
       if (allocated(computed%failure) .and. size(deck%sweep%axes) > 0) call add_context(computed%failure, &
          & case_in_words(deck%sweep, number))
       !$omp end critical (camroller_texts)
-      if (with_profiles .and. .not. allocated(computed%failure)) call find_profiles(computed%profiles, case, computed%result)
+      if (.not. with_profiles .or. allocated(computed%failure)) return
+      call find_profiles(computed%profiles, case, computed%result)
+      if (allocated(computed%profiles)) call judge_hot_profiles(computed%profiles, case, computed%result%remarks)
    end subroutine compute_case
 
    !> Has the loop to end before its next case?

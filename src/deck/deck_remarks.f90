@@ -27,7 +27,7 @@ module camroller_deck_remarks
    use camroller_case, only : case_t, select_names, select_needed
    use camroller_deck, only : add_override, deck_t, make_case, make_settings, override_t
    use camroller_error, only : error_t
-   use camroller_oil_checks, only : compare_hths, find_far_points
+   use camroller_oil_checks, only : compare_hths, find_far_points, find_far_table, rises_t
    implicit none
    private
 
@@ -431,10 +431,12 @@ contains
          real(wp) :: far ! [K]
 
          case%operating_point%oil_temperature = temperature
-         call find_far_points(case, 0.0_wp, far, words)
-         if (far <= distance) return
-         distance = far
-         farthest = words
+         call find_far_points(case, rises_t(), far, words)
+         if (far > distance) farthest = words
+         distance = max(distance, far)
+         call find_far_table(case, 0.0_wp, far, words)
+         if (far > distance) farthest = words
+         distance = max(distance, far)
       end subroutine look_at
 
    end subroutine remark_temperature

@@ -198,10 +198,11 @@ contains
       decision%is_used = .true.
       decision%estimates = huge(1.0_wp)
       decision%reason = ""
-      if (effect == effect_asperity .and. allocated(case%wear)) decision%reason = "not estimated: they make the wear that is "// &
-         & "asked for"
-      if (any(effect == [effect_film, effect_ehl]) .and. case%film%range_policy == range_policy_names(range_stop)) &
-         & decision%reason = "not estimated: a simpler law outside its range would end the run, by film.range_policy"
+      if (effect == effect_asperity .and. allocated(case%wear)) then
+         decision%reason = "not estimated: they make the wear that is asked for"
+      else if (any(effect == [effect_film, effect_ehl]) .and. case%film%range_policy == range_policy_names(range_stop)) then
+         decision%reason = "not estimated: a simpler law outside its range would end the run, by film.range_policy"
+      end if
       if (effect == effect_bearings) call weigh_bearings(case, surveys, torque, decision)
       if (any(effect == needs_bearings)) call weigh_bearing_part(case, models, surveys, torque, decision)
       lobe = 1

@@ -39,8 +39,6 @@ module camroller_ehl_films
       real(wp), allocatable :: cells(:, :)
       !> Mean of the limiting traction coefficient over that of the oil around: by the temperature, weighed with the pressure [-]
       real(wp) :: limit_part = 1.0_wp
-      !> Rise of the film's temperature, mean over the dry contact [K]
-      real(wp) :: mean_rise = 0.0_wp
       !> Rise of the surfaces' temperature where asperities touch: mean of both, weighed with the pressure of the asperities [K]
       real(wp) :: asperity_rise = 0.0_wp
       !> Mass flow over density and speed, equal everywhere in the full film [m]
@@ -131,7 +129,6 @@ contains
          films%flow_lack = maxval(abs(fields%flow(:last - 1)/flow - 1.0_wp))
          if (allocated(fields%rise)) then
             films%limit_part = integral(grid, state%total*exp(-problem%heat%limit_fall*fields%rise))/integral(grid, state%total)
-            films%mean_rise = sum(grid%weight*fields%rise, mask=abs(x) <= 1.0_wp)/sum(grid%weight, mask=abs(x) <= 1.0_wp)
             if (films%asperity_share > 0.0_wp) films%asperity_rise = integral(grid, fields%asperity &
                & *0.5_wp*sum(fields%surface_rise, 2))/(films%asperity_share*problem%load)
          end if

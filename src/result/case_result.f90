@@ -20,8 +20,8 @@ module camroller_case_result
    use camroller_series_extremes, only : series_extremes_t, find_extremes, find_lobe_extremes
    use camroller_heat_remarks, only : judge_heat
    use camroller_margins, only : margins_t, find_margins
-   use camroller_oil_checks, only : find_far_points, judge_estimate
-   use camroller_remarks, only : add_remark, cold_estimate, far_temperature, remark_t
+   use camroller_oil_checks, only : find_far_points, find_far_table, judge_estimate, rises_t
+   use camroller_remarks, only : add_remark, cold_estimate, far_table, far_temperature, remark_t
    use camroller_result, only : result_t, quantity_t, check_numbers, find_quantity, series_name_length, severest
    use camroller_part_series, only : bearing_count, bearing_series_count
    use camroller_bearing_turn, only : complete_shaft
@@ -219,7 +219,7 @@ contains
       call make_summary(solved, statistics, bearing_torque, of_bearings, margins, extremes, result)
       call list_turns(cycles, result)
       call judge_extremes(case, models, statistics, result)
-      call judge_temperature(case, solved%shaft, result%remarks)
+      call judge_temperature(case, solved%shaft, statistics, result%remarks)
       call judge_heat(solved, films, bearing_torque, result)
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)
@@ -252,23 +252,27 @@ contains
       end do
    end subroutine judge_extremes
 
-   !> Remarks on a temperature of the oil far from all at which its laws are given, or beyond what they are estimated for.
-   subroutine judge_temperature(case, shaft, remarks)
+   !> Remarks on a temperature of oil or surfaces far from all at which their laws are given, or beyond what they are estimated for.
+   subroutine judge_temperature(case, shaft, statistics, remarks)
       !> The case
       type(case_t), intent(in) :: case
       !> Its camshafts
       type(shaft_t), intent(in) :: shaft
+      !> Statistics of each lobe shape
+      type(statistics_t), intent(in) :: statistics(:)
       !> Get the remarks
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Way beyond the points, largest rise in a bearing [K]
-      real(wp) :: distance, rise
+      type(rises_t) :: rises
+      real(wp) :: distance ! way beyond the points [K]
       character(len=:), allocatable :: words
 
-      rise = 0.0_wp
-      if (allocated(shaft%rises)) rise = max(rise, maxval(shaft%rises))
-      call find_far_points(case, rise, distance, words)
+      rises%film = maxval(statistics%hot_film%rise)
+      if (allocated(shaft%rises)) rises%bearing = max(0.0_wp, maxval(shaft%rises))
+      call find_far_points(case, rises, distance, words)
       if (distance > 0.0_wp) call add_remark(remarks, far_temperature, words, distance)
+      call find_far_table(case, maxval(statistics%hot_film%surface_rise), distance, words)
+      if (distance > 0.0_wp) call add_remark(remarks, far_table, words, distance)
       call judge_estimate(case, distance, words)
       if (distance > 0.0_wp) call add_remark(remarks, cold_estimate, words, distance)
    end subroutine judge_temperature

@@ -12,13 +12,13 @@ module camroller_cycle_remarks
    use camroller_film, only : law_masjedi_khonsari_rough
    use camroller_film_range, only : distance_outside, matters, outside_words, range_in_words
    use camroller_train_remarks, only : judge_train
-   use camroller_heat, only : compare_hot_oil
    use camroller_margins, only : joint_rounding, margins_t
    use camroller_cycle_shares, only : shear_ratio_allowed
    use camroller_film_remarks, only : judge_traction, name_lobe, notable_share
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
+   use camroller_oil_checks, only : describe_hot_film
    use camroller_remarks, only : remark_t, add_remark, cut_off_contact, foreign_asperities, hot_film, hot_inlet, lifted_valve, &
       & lost_contact, open_pivot, outside_range, pumped_adjuster, oiled_slices, rigid_contact, rolling_out_of_range, &
       & standing_entrainment, unloaded_end, unresolved_slip
@@ -247,7 +247,10 @@ contains
       if (statistics%inlet_share > 0.0_wp) call add_remark(remarks, hot_inlet, "heat in the inlet is beyond what the factor of "// &
          & "Gupta and others can tell for "//number_text(100.0_wp*statistics%inlet_share, 3)//" % of the cycle: the pressure's "// &
          & "part alone would halve the film; a continuation stands for it", 100.0_wp*statistics%inlet_share)
-      if (statistics%hot_share > 0.0_wp) call check_hot_film(model, statistics, remarks)
+      if (statistics%hot_film%share > 0.0_wp) then
+         call describe_hot_film(statistics%hot_film, model%heat, model%lubricant, model%oil, "the film", text)
+         call add_remark(remarks, hot_film, text, statistics%hot_film%rise)
+      end if
       if (statistics%rolling_share > 0.0_wp) call check_rolling(statistics, remarks)
       if (statistics%rigid_share > notable_share) call check_rigid(statistics, remarks)
       call judge_traction(model, statistics, remarks)
@@ -268,43 +271,6 @@ contains
             & distance_outside(statistics%film_range, model%film_law))
       end if
    end subroutine check_range
-
-   !> Say that a film is so much warmer than the oil around that its oil is not the lubricant any more.
-   subroutine check_hot_film(model, statistics, remarks)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Means over its cycle
-      type(statistics_t), intent(in) :: statistics
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      ! Relative errors of the viscosity and of the pressure-viscosity coefficient at the largest rise; one that is none [-]
-      real(wp) :: errors(2)
-      real(wp), parameter :: no_error = 1.0e-3_wp
-      character(len=*), parameter :: side(2) = ["below", "above"]
-      character(len=:), allocatable :: text
-      logical :: has_law, is_said(2)
-
-      text = "the film is up to "//number_text(statistics%hot_rise, 3)//" K warmer than the oil, at "
-      call append_cam_angle(text, statistics%hot_angle, 1)
-      text = text//", where "
-      call compare_hot_oil(model%heat, model%lubricant, model%oil, statistics%hot_rise, errors, has_law)
-      if (has_law) then
-         is_said = abs(errors) > no_error .or. abs(errors) >= maxval(abs(errors))
-         if (is_said(1)) text = text//"its viscosity without pressure is "//number_text(100.0_wp*abs(errors(1)), 2)//" % "// &
-            & side(merge(1, 2, errors(1) < 0.0_wp))
-         if (all(is_said)) text = text//" and "
-         if (is_said(2)) text = text//"its pressure-viscosity coefficient is "//number_text(100.0_wp*abs(errors(2)), 2)//" % "// &
-            & side(merge(1, 2, errors(2) < 0.0_wp))
-         text = text//" what the lubricant has"
-      else
-         text = text//"the lubricant's own laws have no value"
-      end if
-      text = text//"; the oil of a hot film, through 0, 15 and 30 K above the oil around, is within 1 % up to "// &
-         & number_text(statistics%good_rise, 2)//" K, and the film is hotter for "// &
-         & number_text(100.0_wp*statistics%hot_share, 3)//" % of the cycle"
-      call add_remark(remarks, hot_film, text, statistics%hot_rise)
-   end subroutine check_hot_film
 
    !> Warn where the law of rolling resistance was used for contacts that it does not describe.
    pure subroutine check_rolling(statistics, remarks)

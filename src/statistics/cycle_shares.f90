@@ -8,9 +8,10 @@ module camroller_cycle_shares
    use camroller_contact_forces, only : film_groups
    use camroller_film, only : groups_t, is_in_range, takes_whole_load
    use camroller_film_range, only : film_range_t, note_film
-   use camroller_heat, only : hot_oil_range, is_inlet_in_range
+   use camroller_heat, only : is_inlet_in_range
    use camroller_hertz, only : peak_pressure
    use camroller_model, only : model_t
+   use camroller_oil_checks, only : hot_film_t, note_hot_film
    use camroller_part_series, only : largest_pressure
    use camroller_state, only : state_t
    use camroller_traction, only : dry_shear_ratio, film_pressure, rolling_biboulet_houpert, rolling_goksem_hargreaves, &
@@ -30,10 +31,8 @@ module camroller_cycle_shares
       real(wp) :: first_outside = 0.0_wp
       !> Fraction of the cycle with heat in the inlet beyond what its factor was published for [-]
       real(wp) :: inlet_share = 0.0_wp
-      !> Rise of the film's temperature that its oil is good for; negative: not asked for yet [K]
-      real(wp) :: good_rise = -1.0_wp
-      !> Fraction of the cycle with a larger one [-]; the largest [K], and its cam angle from full lift [rad]
-      real(wp) :: hot_share = 0.0_wp, hot_rise = 0.0_wp, hot_angle = 0.0_wp
+      !> How hot the film is, and for how long hotter than its oil is good for
+      type(hot_film_t) :: hot_film
       !> Largest pressure at an end of the roller where there is none larger [Pa], over that of the same load all along it [-], and
       !> its cam angle from full lift [rad]
       real(wp) :: edge_pressure = 0.0_wp, edge_factor = 0.0_wp, edge_angle = 0.0_wp
@@ -113,7 +112,8 @@ contains
             if (.not. is_inlet_in_range(model%heat%inlet_law, model%heat%loading, state%contact%entrainment_speed, &
                & peak_pressure(state%contact%load, state%position%equivalent_radius, state%contact%length, model%modulus) &
                & /model%modulus)) shares%inlet_share = shares%inlet_share + weight
-            if (state%contact%film_rise > 0.0_wp) call note_hot_film(shares, model, state%contact%film_rise, angle, weight)
+            call note_hot_film(shares%hot_film, model%heat, model%lubricant, model%oil, state%contact%film_rise, &
+               & merge(state%contact%flash_rise, 0.0_wp, state%contact%asperity_load > 0.0_wp), angle, weight)
          end if
          if (state%contact%is_touching) then
             if (allocated(model%axial)) then
@@ -183,25 +183,6 @@ contains
          shares%least_limit = min(shares%least_limit, limit)
       end associate
    end subroutine note_shear
-
-   !> Note where a film is warmer than the oil of a hot film is good for.
-   subroutine note_hot_film(shares, model, rise, angle, weight)
-      !> The fractions
-      class(shares_t), intent(inout) :: shares
-      !> Model of the lobe, with heat
-      type(model_t), intent(in) :: model
-      !> Rise of the film's temperature [K], cam angle from full lift [rad]
-      real(wp), intent(in) :: rise, angle
-      !> Fraction of the cycle that the state represents [-]
-      real(wp), intent(in) :: weight
-
-      if (shares%good_rise < 0.0_wp) shares%good_rise = hot_oil_range(model%heat, model%lubricant, model%oil)
-      if (rise <= shares%good_rise) return
-      shares%hot_share = shares%hot_share + weight
-      if (rise <= shares%hot_rise) return
-      shares%hot_rise = rise
-      shares%hot_angle = angle
-   end subroutine note_hot_film
 
    !> Note where the law of Goksem and Hargreaves, a fit to elastic contacts that hardly knows the load, is used for a rigid one,
    !> whose rolling resistance vanishes with the load: it is compared with the law of Biboulet and Houpert, which has both.

@@ -90,6 +90,41 @@ def test_a_boundary_law_that_is_held_at_its_bound_says_so(camroller, tmp_path):
                                "boundary_law.change_per_decade=0.01", deck=deck)
 
 
+HOT = ("between cam and roller, ", "where they touch, ", "falls exponentially", "of the profiles")
+
+
+def heated(folder, groups):
+    """The deck with heat and more groups."""
+    path = folder / "deck.nml"
+    path.write_text((ROOT / "decks/heated_contact.nml").read_text(encoding="utf-8") + groups, encoding="utf-8")
+    return path
+
+
+def test_films_and_surfaces_far_from_what_is_given_say_so(camroller, tmp_path):
+    deck = heated(tmp_path, """&boundary_law law = 'table' speed_points_m_s = 0.001, 1 temperature_points_degC = 80, 100
+        coefficient_points = 0.1, 0.1, 0.12, 0.12 /""")
+    point = ("operating_point.speed_rpm=2500", "operating_point.oil_temperature_degC=95", "asperity.boundary_coefficient=0.1")
+    braked = (*point, "needle_bearing.friction_coefficient=0.3")
+    assert re.search(r"between cam and roller, 16\d[.\d]* degC, is 7\d[.\d]* K above all points that are given, 25 to 95 degC: the visc",
+                     remarks(camroller, tmp_path, *braked, deck=deck))
+    text = remarks(camroller, tmp_path, *braked, "heat.cam_conductivity_W_m_K=3", "heat.roller_conductivity_W_m_K=3", deck=deck)
+    assert "where they touch, " in text and "nearest temperature in the table of &boundary_law" in text
+    assert not any(words in remarks(camroller, tmp_path, *point, deck=deck) for words in HOT)
+
+
+def test_profiles_say_that_a_place_is_far_from_what_is_given(camroller, tmp_path):
+    deck = heated(tmp_path, "&ehl profiles = .true. / &output angle_step_deg = 4 /")
+    text = remarks(camroller, tmp_path, "operating_point.speed_rpm=3000", deck=deck)
+    assert "in the profiles the oil temperature between cam and roller, " in text
+    assert not any(words in remarks(camroller, tmp_path, "operating_point.speed_rpm=900", deck=deck) for words in HOT)
+
+
+def test_a_deck_with_heat_is_told_none_of_this(camroller, tmp_path):
+    result = subprocess.run([camroller, "run", "decks/heated_contact.nml", "-o", tmp_path / "result.h5"], cwd=ROOT, capture_output=True,
+                            text=True, check=True)
+    assert not any(words in result.stderr for words in HOT)
+
+
 def test_a_film_that_carries_little_is_judged_by_what_it_carries(camroller, tmp_path):
     """Asperities of a hard surface carry nine tenths and more of the load; the film's law is evaluated far below its range, all round."""
     text = remarks(camroller, tmp_path, "materials.hardness_GPa=8", "asperity.law=zhao_maietta_chang", "operating_point.speed_rpm=300",

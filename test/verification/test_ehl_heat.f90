@@ -268,19 +268,21 @@ contains
       type(ehl_grid_t) :: grid
       type(ehl_state_t) :: state
       type(ehl_films_t) :: warm, cold
+      real(wp) :: largest_rise ! [K]
 
       contact = hot_contact(6.0_wp, 0.3_wp)
       contact%heat%hot = hot_oil_t()
       contact%heat%expansion = 0.0_wp
       call solve(contact, problem, grid, state, warm, error)
       if (allocated(error)) return
+      largest_rise = maxval(state%fields%rise)
       deallocate (contact%heat)
       call solve(contact, problem, grid, state, cold, error)
       if (allocated(error)) return
       call check(error, all(transfer([warm%central, warm%minimum, warm%rolling, warm%shear_slope], [0]) &
          & == transfer([cold%central, cold%minimum, cold%rolling, cold%shear_slope], [0])), "bits differ")
       if (allocated(error)) return
-      call check(error, warm%mean_rise > 10.0_wp, "nothing is warm")
+      call check(error, largest_rise > 10.0_wp, "nothing is warm")
    end subroutine test_cold
 
    subroutine test_inlet(error)

@@ -1,19 +1,24 @@
-!> Remarks on heat that a case leaves out, against the case with it.
+!> Remarks on heat: that a case leaves out, against the case with it; that takes oil and surfaces beyond what is given of them.
 module test_heat_remarks
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller_kinds, only : two_pi, wp
+   use camroller_kinds, only : pi, two_pi, wp
+   use camroller_boundary_law, only : boundary_law_t
    use camroller_bearing_heat, only : bearing_heat_t, oil_flow, temperature_rise
    use camroller_case, only : case_t, operating_point_t
+   use camroller_ehl_record, only : ehl_record_t
    use camroller_error, only : error_t
-   use camroller_heat, only : heat_t
+   use camroller_heat, only : compare_hot_oil, heat_part_t, heat_t, new_heat_part, set_heat_oil
    use camroller_journal, only : journal_at_speed
-   use camroller_lubricant, only : density_at
+   use camroller_lubricant, only : density_at, get_oil, lubricant_t, oil_t
    use camroller_number_text, only : number_text
-   use camroller_remarks, only : cool_bearings, cool_inlet, cool_pin
+   use camroller_oil_checks, only : describe_hot_film, hot_film_t, note_hot_film
+   use camroller_profile_remarks, only : judge_hot_profiles
+   use camroller_remarks, only : add_remark, cool_bearings, cool_inlet, cool_pin, far_temperature, hot_film, remark_lines, remark_t
    use camroller_result, only : result_t
    use closeness, only : expect_success
    use deck_cases, only : get_deck_case
    use lobe_cases, only : run
+   use reference_cases, only : point_speeds, point_viscosities, set_point, thesis_case
    use result_checks, only : scalar_of
    implicit none
    private
@@ -36,7 +41,11 @@ contains
          new_unittest("friction of bearings that a remark expects with heat is that with heat", test_bearings), &
          new_unittest("friction of a pin that a remark expects is that in oil so much warmer, which carries its heat off", &
          & test_pins), &
-         new_unittest("the film that a remark expects with heat in the inlet is that with heat", test_inlets) &
+         new_unittest("the film that a remark expects with heat in the inlet is that with heat", test_inlets), &
+         new_unittest("where one viscosity is given, a film 30 K warmer than the oil gives a remark", test_direct_oil), &
+         new_unittest("of an error that falls again with the temperature the largest is named", test_return), &
+         new_unittest("oil and surfaces of the contact far from the points of their laws give a remark", test_far_contact), &
+         new_unittest("profiles have remarks of their own on a place that is hotter than the mean", test_profiles) &
          ]
    end subroutine collect_heat_remarks
 
@@ -133,6 +142,140 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_inlets
+
+   !> Rollers that their bearings brake, on oil that is given by one viscosity: films 28 and 33 K warm, the latter's also without
+   !> heat in the contact.
+   subroutine test_direct_oil(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      real(wp), parameter :: conductivities(3) = [46.0_wp, 30.0_wp, 30.0_wp] ! of cam and roller [W/(m K)]
+      integer :: i, k
+
+      do i = 1, size(conductivities)
+         case = thesis_case()
+         call set_point(case, point_speeds(3), point_viscosities(1))
+         allocate (case%heat)
+         case%heat%viscosity_fall = 0.04_wp
+         case%heat%conductivity = conductivities(i)
+         if (i == 3) case%heat%contact = "none"
+         case%needle_bearing%friction_coefficient = 0.1_wp
+         call run(case, result, error)
+         if (allocated(error)) return
+         k = findloc(result%remarks%kind, hot_film, 1)
+         call check(error, (k > 0) .eqv. i == 2, remark_lines(result%remarks))
+         if (allocated(error)) return
+         if (k == 0) cycle
+         call check(error, index(result%remarks(k)%text, "its viscosity falls exponentially, by heat.viscosity_fall_per_K") > 0 &
+            & .and. index(result%remarks(k)%text, "; it will do up to 30 K, and the film is hotter for ") > 0 &
+            & .and. index(result%remarks(k)%text, "what the lubricant has") == 0, result%remarks(k)%text)
+         if (allocated(error)) return
+      end do
+   end subroutine test_direct_oil
+
+   !> Given at 25, 60 and 95 degC, the coefficient of oil at 50 degC bends 10 K above it; the line through 0 and 30 K is off the
+   !> most there.
+   subroutine test_return(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(lubricant_t) :: lubricant
+      type(heat_part_t) :: part
+      type(oil_t) :: oil
+      type(hot_film_t) :: hot
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: words
+      ! Errors at 10 and at 29 K [-]
+      real(wp) :: middle(2), last(2)
+      real(wp), parameter :: temperature = 323.15_wp ! [K]
+      logical :: has_law
+
+      lubricant%viscosity = 0.05_wp
+      lubricant%pressure_viscosity_temperatures = [298.15_wp, 333.15_wp, 368.15_wp]
+      lubricant%pressure_viscosity_points = [24.0e-9_wp, 20.0e-9_wp, 18.0e-9_wp]
+      call get_oil(lubricant, temperature, oil, failure)
+      call new_heat_part(part, heat_t(viscosity_fall=0.05_wp), failure)
+      call set_heat_oil(part, lubricant, temperature, oil, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call note_hot_film(hot, part, lubricant, oil, 29.0_wp, 0.0_wp, 0.0_wp, 0.25_wp)
+      call compare_hot_oil(part, lubricant, oil, 10.0_wp, middle, has_law)
+      call compare_hot_oil(part, lubricant, oil, 29.0_wp, last, has_law)
+      call check(error, middle(2) > 0.01_wp .and. abs(last(2)) < 0.002_wp, "errors that do not return")
+      if (allocated(error)) return
+      call describe_hot_film(hot, part, lubricant, oil, "the film", words)
+      call check(error, words, "the film is up to 29 K warmer than the oil, at cam angle 180.0 deg; up to there its "// &
+         & "pressure-viscosity coefficient is as much as "//number_text(100.0_wp*middle(2), 2)//" % above what the lubricant "// &
+         & "has; the oil of a hot film is within 1 % up to "//number_text(hot%good_rise, 2)//" K, and the film is hotter for "// &
+         & "25 % of the cycle")
+   end subroutine test_return
+
+   !> A roller that its bearing holds, on oil at the last of its points: the film is 70 K warmer. Surfaces that conduct badly are
+   !> beyond a table of their coefficient; those of a roller that rolls are not.
+   subroutine test_far_contact(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      character(len=*), parameter :: film = "the oil temperature between cam and roller, ", &
+         & surface = "the temperature of cam and roller where they touch, "
+      logical :: is_told(2)
+      integer :: i
+
+      do i = 1, 3
+         call get_deck_case("decks/heated_contact.nml", case, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         case%operating_point = operating_point_t(speed=2500.0_wp*two_pi/60.0_wp, oil_temperature=368.15_wp)
+         if (i < 3) case%needle_bearing%friction_coefficient = 0.3_wp
+         if (i > 1) then
+            allocate (case%boundary_law)
+            case%boundary_law = boundary_law_t(law="table", largest=1.0_wp)
+            case%boundary_law%speed_points = [1.0e-3_wp, 1.0_wp]
+            case%boundary_law%temperature_points = [353.15_wp, 373.15_wp]
+            case%boundary_law%coefficient_points = [0.1_wp, 0.1_wp, 0.12_wp, 0.12_wp]
+            if (i == 2) case%heat%conductivity = 3.0_wp
+         end if
+         call run(case, result, error)
+         if (allocated(error)) return
+         is_told = [index(remark_lines(result%remarks), film) > 0, index(remark_lines(result%remarks), surface) > 0]
+         call check(error, all(is_told .eqv. [i < 3, i == 2]), remark_lines(result%remarks))
+         if (allocated(error)) return
+      end do
+   end subroutine test_far_contact
+
+   !> Profiles of two angles, at one of which a place between nodes of a mean film is hot.
+   subroutine test_profiles(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(ehl_record_t) :: record
+      type(remark_t), allocatable :: remarks(:)
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: lines
+      integer :: i
+
+      call get_deck_case("decks/heated_contact.nml", case, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      case%operating_point%oil_temperature = 298.15_wp
+      case%lubricant%temperature_law = "walther"
+      case%lubricant%temperature_points = case%lubricant%temperature_points([1, 3])
+      case%lubricant%viscosity_points = case%lubricant%viscosity_points([1, 3])
+      record%angle = [0.0_wp, pi]
+      do i = 1, 4
+         remarks = [remark_t ::]
+         if (i == 4) call add_remark(remarks, far_temperature, "farther", 60.0_wp)
+         if (i > 1) record%film_rise = reshape([5.0_wp, 10.0_wp, 0.0_wp, merge(15.0_wp, 120.0_wp, i == 2)], [2, 2])
+         call judge_hot_profiles(record, case, remarks)
+         call check(error, size(remarks), merge(0, 2, i < 3), remark_lines(remarks))
+         if (allocated(error)) return
+         if (i < 3) cycle
+         lines = remark_lines(remarks)
+         call check(error, index(lines, "the film of the profiles is up to 120 K warmer than the oil, at cam angle 0.0 deg; ") > 0 &
+               & .and. index(lines, ", and the film is hotter for 50 % of the cycle") > 0 .and. (index(lines, "in the profiles "// &
+               & "the oil temperature between cam and roller, 145 degC, is 50 K above all points that are given, 25 to 95 degC: ") &
+               & > 0 .eqv. i == 3), lines)
+         if (allocated(error)) return
+      end do
+   end subroutine test_profiles
 
    !> The case of the thesis at a point, without heat.
    subroutine solve(point, case, result, error, deck)
