@@ -31,7 +31,7 @@ module test_ehl_heat
    implicit none
    private
 
-   public :: collect_ehl_heat
+   public :: collect_ehl_heat, solve
 
    !> Steel: conductivity [W/(m K)], heat capacity over volume [J/(m^3 K)]
    real(wp), parameter :: steel = 46.0_wp, steel_capacity = 7850.0_wp*460.0_wp
