@@ -93,6 +93,7 @@ program main
    use test_ehl_settling, only : collect_ehl_settling
    use test_ehl_bearings, only : collect_ehl_bearings
    use test_ehl_cycle, only : collect_ehl_cycle
+   use test_ehl_energy, only : collect_ehl_energy
    use test_ehl_factors, only : collect_ehl_factors
    use test_ehl_record, only : collect_ehl_record
    use test_ehl_reynolds, only : collect_ehl_reynolds
@@ -214,6 +215,7 @@ contains
          new_testsuite("kept_models", collect_kept_models), &
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
          new_testsuite("ehl_bearings", collect_ehl_bearings), &
+         new_testsuite("ehl_energy", collect_ehl_energy), &
          new_testsuite("ehl_factors", collect_ehl_factors), &
          new_testsuite("ehl_record", collect_ehl_record), &
          new_testsuite("ehl_reynolds", collect_ehl_reynolds), &

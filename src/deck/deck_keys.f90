@@ -355,7 +355,7 @@ contains
       call add_logical(schema, "profiles", standard%profiles, &
          & "are pressure, film and friction across the contact written too, in /ehl? By 'sweep' for the cases of sweep.series")
       call add_logical(schema, "shear_thinning", standard%shear_thinning, &
-         & "whether sliding thins the oil, where the shear law is 'eyring'")
+         & "whether sliding thins the oil that pressure drives, where the shear law is 'eyring'; shear follows that law either way")
       call add_logical(schema, "flow_factors", standard%flow_factors, &
          & "whether roughness hinders the flow, by Patir and Cheng")
    end subroutine add_ehl_keys

@@ -11,13 +11,14 @@
 !>     rho c u h dt/dx + q_1 + q_2 = tau V_s + (h^3/(12 eta)) (dp/dx)^2 + epsilon T (m/rho) dp/dx
 !>
 !> that is, what flows off with the oil and into the surfaces is the heat of sliding, of the flow that pressure drives, and of
-!> compression. Where traction is limited, all of it is: heat of sliding is the limited force times the sliding speed. The unknown
-!> of Newton's method is `q_1 + q_2`; the rise follows from it, and `q_1 - q_2` by a system of its own. Sources: Salehizadeh and
-!> Saka, J. Tribology 113 (1991) 481, the parabola across the film in a line contact; surfaces: `camroller_ehl_walls`.
+!> compression. Heat of sliding is the limited force times the sliding speed, and each place has its part of it: a traction that is
+!> limited as a whole leaves each place a limit in proportion to the pressure there. The unknown of Newton's method is
+!> `q_1 + q_2`; the rise follows from it, and `q_1 - q_2` by a system of its own. Sources: Salehizadeh and Saka, J. Tribology 113
+!> (1991) 481, the parabola across the film in a line contact; surfaces: `camroller_ehl_walls`.
 module camroller_ehl_energy
    use camroller_kinds, only : wp
    use camroller_conjunction, only : film_part
-   use camroller_ehl_films, only : cell_limit, cell_parts, cell_shear, part_count
+   use camroller_ehl_films, only : cell_limit, cell_parts, cell_shear, common_multiplier, part_count
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_problem, only : ehl_problem_t, real_area_part
@@ -46,7 +47,7 @@ module camroller_ehl_energy
       real(wp), allocatable :: sliding(:), driven(:), compression(:)
       !> Derivative of all of it over the rise at both nodes [W/(m K)]
       real(wp), allocatable :: slopes(:, :)
-      !> The part of the derivative that the limit of the traction makes: a cell's part of all sliding [-], derivative of the whole
+      !> The part of the derivative that a limit of the traction as a whole makes: a cell's part of it [-], derivative of the whole
       !> over the rise at the nodes [W/(m K)]
       real(wp), allocatable :: part(:), by_limit(:)
    end type heat_made_t
@@ -276,13 +277,9 @@ contains
 
       ! Shear between the nodes and its derivatives, part of the surface on which asperities touch [-]
       real(wp) :: shear(grid%size - 1), slopes(2, grid%size - 1), touching(grid%size)
-      ! Force of the shear and its limit over length [N/m]; derivatives of the limited force over both [-]
-      real(wp) :: force, free, limit, by_force, by_limit
       ! Force over the dimensionless shear [N/m]; heat over length of a dimensionless flow and pressure [W/m]; work of the pressure
       ! on the flow in a cell, over its volume, and its derivative over the temperature [W/m], [W/(m K)]
       real(wp) :: unit, scale, work(grid%size - 1)
-      ! Pressure at a node with the share of its cell and the fall of the limit [N/m]
-      real(wp) :: pressed(grid%size)
       integer :: n
 
       n = grid%size
@@ -304,29 +301,14 @@ contains
          slopes(1, :) = -slopes(1, :)*fields%by_rise(:n - 1)
          slopes(2, :) = -slopes(2, :)*fields%by_rise(2:)
          unit = speed*problem%oil%viscosity*problem%length_scale/problem%film_scale
-         free = unit*sum(shear)
-         if (.not. free > 0.0_wp) return
-         if (heat%has_local_limit) then
-            call limit_heat(problem, grid, state, touching, unit*shear, unit*slopes, made)
-            return
-         end if
-         pressed = problem%length_scale*problem%pressure_scale*grid%weight*state%total*exp(-heat%limit_fall*fields%rise)
-         limit = heat%limiting_coefficient*sum(pressed)
-         force = free
-         call limit_shear(heat%cap, limit, force, by_force, by_limit)
-         made%part = shear/sum(shear)
-         made%sliding = speed*force*made%part
-         made%slopes = made%slopes + speed*unit*force/free*slopes
-         made%by_limit = -by_limit*heat%limiting_coefficient*heat%limit_fall*pressed
-         made%by_limit(:n - 1) = made%by_limit(:n - 1) + (by_force - force/free)*unit*slopes(1, :)
-         made%by_limit(2:) = made%by_limit(2:) + (by_force - force/free)*unit*slopes(2, :)
-         made%by_limit = speed*made%by_limit
+         if (sum(shear) > 0.0_wp) call limit_heat(problem, grid, state, touching, unit*shear, unit*slopes, made)
       end associate
    end subroutine find_heat
 
-   !> Heat of sliding where the stress of each cell has a limit of its own.
+   !> Heat of sliding where traction is limited: each part of the film has its own limit. Where the traction as a whole is limited,
+   !> these limits are multiplied by what makes the parts' shear add up to it.
    pure subroutine limit_heat(problem, grid, state, touching, free, slopes, made)
-      !> The problem, with heat
+      !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
@@ -338,28 +320,70 @@ contains
       !> Gets the heat of sliding and its derivatives
       type(heat_made_t), intent(inout) :: made
 
-      ! Parts of the cells: free shear over length [N/m], area over length [m], pressure on it [N/m]
-      real(wp) :: parts(3, part_count, size(free))
-      ! Of the parts of a cell: limits, free and limited shear over length [N/m], derivatives of the last over both others [-]
-      real(wp), dimension(part_count) :: limits, shear, by_free, by_limit
-      ! What the fall of the limits makes of a cell's shear at either side [N/(m K)]
-      real(wp) :: fall
+      ! Parts of the cells: free shear over length [N/m], area over length [m], pressure on it [N/m]; their limits [N/m]
+      real(wp) :: parts(3, part_count, size(free)), limits(part_count, size(free))
+      ! Of the parts of a cell: limited shear over length [N/m], its derivatives over the free one and over the limit [-]
+      real(wp), dimension(part_count) :: shear, by_free, by_limit
+      ! What the fall of the limits makes of a cell's shear at either side [N/(m K)]; derivatives of a cell's shear [N/(m K)]
+      real(wp) :: fall, own(2)
+      ! Force of all shear over length [N/m] and its derivatives over the rise at the nodes, less those of the cells [N/(m K)]
+      real(wp) :: force, by_rise(grid%size)
       integer :: i
 
       call cell_parts(problem, grid, state, touching, free, parts)
+      by_rise = 0.0_wp
       associate (heat => problem%heat, speed => abs(problem%sliding_speed))
+         limits = max(cell_limit(parts(2, :, :), parts(3, :, :), heat%limiting_coefficient, heat%limiting_stress), tiny(1.0_wp))
+         if (.not. heat%has_local_limit) then
+            call limit_whole(problem, grid, state, free, slopes, force, by_rise)
+            limits = limits*common_multiplier(heat%cap, parts(1, :, :), limits, force)
+         end if
          do i = 1, size(free)
             if (.not. free(i) > 0.0_wp) cycle
-            limits = max(cell_limit(parts(2, :, i), parts(3, :, i), heat%limiting_coefficient, heat%limiting_stress), tiny(1.0_wp))
             shear = parts(1, :, i)
-            call limit_shear(heat%cap, limits, shear, by_free, by_limit)
-            fall = -0.5_wp*sum(by_limit*limits)*heat%limit_fall
+            call limit_shear(heat%cap, limits(:, i), shear, by_free, by_limit)
             made%sliding(i) = speed*sum(shear)
+            made%part(i) = max(sum(by_limit*limits(:, i)), 0.0_wp)
+            fall = -0.5_wp*made%part(i)*heat%limit_fall
             ! Each part of the cell takes the same part of a change of its free shear
-            made%slopes(:, i) = made%slopes(:, i) + speed*(sum(by_free*parts(1, :, i))/free(i)*slopes(:, i) + fall)
+            own = sum(by_free*parts(1, :, i))/free(i)*slopes(:, i) + fall
+            made%slopes(:, i) = made%slopes(:, i) + speed*own
+            by_rise(i:i + 1) = by_rise(i:i + 1) - own
          end do
+         if (heat%has_local_limit) return
+         ! What the whole changes by more than the cells do, their limits take in proportion to what they answer to the multiplier
+         made%part = made%part/max(sum(made%part), tiny(1.0_wp))
+         made%by_limit = speed*by_rise
       end associate
    end subroutine limit_heat
+
+   !> Force of a film whose traction is limited as a whole.
+   pure subroutine limit_whole(problem, grid, state, free, slopes, force, by_rise)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> Pressure and temperature
+      type(ehl_state_t), intent(in) :: state
+      !> Shear of the cells over length [N/m] and its derivatives over the temperatures on both sides [N/(m K)], without the limit
+      real(wp), intent(in) :: free(:), slopes(:, :)
+      !> The force over length [N/m], its derivatives over the rise at the nodes [N/(m K)]
+      real(wp), intent(out) :: force, by_rise(:)
+
+      ! Pressure at a node with the share of its cell and the fall of the limit [N/m]
+      real(wp) :: pressed(grid%size)
+      ! Derivatives of the force over that without a limit and over the limit [-]
+      real(wp) :: by_force, by_limit
+
+      associate (heat => problem%heat, n => grid%size)
+         pressed = problem%length_scale*problem%pressure_scale*grid%weight*state%total*exp(-heat%limit_fall*state%fields%rise)
+         force = sum(free)
+         call limit_shear(heat%cap, heat%limiting_coefficient*sum(pressed), force, by_force, by_limit)
+         by_rise = -by_limit*heat%limiting_coefficient*heat%limit_fall*pressed
+         by_rise(:n - 1) = by_rise(:n - 1) + by_force*slopes(1, :)
+         by_rise(2:) = by_rise(2:) + by_force*slopes(2, :)
+      end associate
+   end subroutine limit_whole
 
    !> Part of a cell's heat that goes to the node before it; the rest goes to the one behind. The first node is as warm as the oil
    !> around.

@@ -8,11 +8,12 @@ module camroller_ehl_films
    use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_reynolds, only : mean_fluidity
    use camroller_local_limit, only : least_limit
+   use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
    use camroller_traction, only : limit_shear
    implicit none
    private
 
-   public :: ehl_films_t, cell_limit, cell_parts, cell_shear, limit_cells, get_films, compare_grids, chance_error
+   public :: ehl_films_t, cell_limit, cell_parts, cell_shear, common_multiplier, limit_cells, get_films, compare_grids, chance_error
 
    !> Film and friction of a solution
    type :: ehl_films_t
@@ -255,6 +256,52 @@ contains
          slope = slope + by_free*cells(1, i)
       end do
    end subroutine limit_cells
+
+   !> What the limits of all parts are to be multiplied by for their shear to add up to a force: one or more, where the force is
+   !> that of all shear under the sum of the limits.
+   pure function common_multiplier(cap, free, limits, force) result(multiplier)
+      !> Position in `cap_names`
+      integer, intent(in) :: cap
+      !> Shear of the parts without limits, and positive limits [N/m]; the force, above zero and no more than the sum of the former
+      !> [N/m]
+      real(wp), intent(in) :: free(:, :), limits(:, :), force
+      !> The multiplier [-]
+      real(wp) :: multiplier
+
+      ! Beyond the largest ratio of shear to limit by this, no limit is felt to 3e-11; multiplier at least, as sums over cells and
+      ! over nodes are not the same; error of its logarithm [-]
+      real(wp), parameter :: ample = 1.0e5_wp, least = 0.5_wp, tolerance = 1.0e-12_wp
+      ! Ends of the bracket of the logarithm [-], what the forces there exceed that wanted by [N/m]
+      real(wp) :: ends(2), excess(2)
+      type(bracket_t) :: bracket
+
+      ends = log([least, max(1.0_wp, maxval(free/limits))*ample])
+      excess = [excess_at(ends(1)), excess_at(ends(2))]
+      multiplier = exp(ends(merge(1, 2, excess(1) >= 0.0_wp)))
+      call start_bracket(bracket, ends(1), ends(2), excess(1), excess(2), tolerance)
+      do while (bracket%status == root_wanted)
+         call narrow_bracket(bracket, excess_at(bracket%trial))
+      end do
+      if (bracket%status == root_found) multiplier = exp(bracket%trial)
+
+   contains
+
+      !> What the force exceeds that wanted by.
+      pure function excess_at(logarithm) result(value)
+         !> Logarithm of the multiplier [-]
+         real(wp), intent(in) :: logarithm
+         !> The excess [N/m]
+         real(wp) :: value
+
+         ! Shear of the parts [N/m], its slopes that are not used [-]
+         real(wp), dimension(size(free, 1), size(free, 2)) :: shear, by_free, by_limit
+
+         shear = free
+         call limit_shear(cap, limits*exp(logarithm), shear, by_free, by_limit)
+         value = sum(shear) - force
+      end function excess_at
+
+   end function common_multiplier
 
    !> Limit of the shear of a part of the film over length.
    elemental function cell_limit(area, pressed, coefficient, stress) result(limit)

@@ -2,8 +2,10 @@
 !>
 !> In: problem with heat, grid, a solution at some temperature. Out: the solution at the temperature that its own heat keeps. The
 !> energy equation at a pressure and a film, and Newton's method for both at a temperature, take turns until the viscosity changes
-!> by no more than the tolerance. The next turn's temperature is the mixture of the last ones whose changes cancel best (Anderson,
-!> J. ACM 12 (1965) 547): without it, turns run in circles in fast contacts whose inlet is hot.
+!> by no more than the tolerance. Where Newton's method does not find the film at a turn's temperature, as at the first of a thick
+!> film, whose viscosity falls to a sixth, the film is integrated in time until it is steady (`ehl_settling`). The next turn's
+!> temperature is the mixture of the last ones whose changes cancel best (Anderson, J. ACM 12 (1965) 547): without it, turns run
+!> in circles in fast contacts whose inlet is hot.
 module camroller_ehl_heat
    use camroller_kinds, only : wp
    use camroller_ehl_energy, only : ehl_energy_t, new_energy, solve_energy
@@ -11,6 +13,7 @@ module camroller_ehl_heat
    use camroller_ehl_newton, only : ehl_state_t, solve_newton
    use camroller_ehl_problem, only : ehl_problem_t
    use camroller_ehl_reynolds, only : ehl_fields_t
+   use camroller_ehl_settling, only : put_back, settle
    use camroller_lapack, only : dgesv
    implicit none
    private
@@ -21,6 +24,9 @@ module camroller_ehl_heat
    integer, parameter :: most_turns = 60, newton_iterations = 30
    !> Turns that are mixed with the last one, at most
    integer, parameter :: depth = 4
+   !> What Newton's method may leave over at most, over p_H: far before a contact, where the gap is wide, the flow that a wrong
+   !> pressure drives would make heat that never comes to rest [-]
+   real(wp), parameter :: pressure_tolerance = 1.0e-9_wp
    !> Part of a diagonal that keeps a mixture determined where changes are alike: round-off of their products [-]
    real(wp), parameter :: least_diagonal = 1.0e-14_wp
 
@@ -52,8 +58,8 @@ contains
 
       type(ehl_energy_t) :: energy
       type(turns_t) :: turns
-      ! Rises of the turn before [K]
-      real(wp) :: old(grid%size)
+      ! Rises of the turn before [K]; pressure and level at its temperature [-]
+      real(wp) :: old(grid%size), total(grid%size), level
       integer :: turn
 
       converged = .true.
@@ -69,7 +75,13 @@ contains
             converged = maxval(abs(fields%by_rise*(fields%rise - old))) <= tolerance
             if (converged) return
             call mix_turns(turns, fields%by_rise*(fields%rise - old), fields%rise)
-            call solve_newton(problem, grid, state, tolerance, newton_iterations, converged)
+            total = state%total
+            level = state%level
+            call solve_newton(problem, grid, state, min(tolerance, pressure_tolerance), newton_iterations, converged)
+            if (.not. converged) then
+               call put_back(total, level, state)
+               call settle(problem, grid, state, min(tolerance, pressure_tolerance), converged)
+            end if
             if (.not. converged) return
          end do
          converged = .false.

@@ -78,6 +78,8 @@ module camroller_ehl_problem
       logical :: is_compressible = .true.
       !> Shear stress at which the oil begins to thin, tau_E [Pa]; zero: never
       real(wp) :: eyring_stress = 0.0_wp
+      !> Does the oil that pressure drives thin as well, or that which is sheared alone?
+      logical :: thins_flow = .true.
       !> Composite roughness [m]; zero: smooth
       real(wp) :: roughness = 0.0_wp
       !> Constants of the asperities; they touch where the roughness is positive
@@ -110,6 +112,8 @@ module camroller_ehl_problem
       logical :: has_flow_factors = .false.
       !> Shear stress over tau_E in a film of the film scale at ambient viscosity [-]; zero: no thinning
       real(wp) :: shear = 0.0_wp
+      !> Does the oil that pressure drives thin as well?
+      logical :: thins_flow = .true.
       !> Film at the centre by Moes' formula, to choose grid and start [-]
       real(wp) :: expected_film
       !> Mean of the surfaces' speeds, and their difference [m/s]
@@ -159,6 +163,7 @@ contains
       end if
       if (contact%eyring_stress > 0.0_wp) problem%shear = contact%oil%viscosity*abs(contact%sliding_speed) &
          & /(problem%film_scale*contact%eyring_stress)
+      problem%thins_flow = contact%thins_flow
       call film_shape(law_moes, groups, shape)
       problem%expected_film = shape%central*contact%radius/problem%film_scale
    end subroutine new_ehl_problem

@@ -151,7 +151,7 @@ contains
    !> Shear has the stress over the rate (secant), `eta_s = tau_E/(V_s/h) asinh(eta V_s/(h tau_E))`. In a line contact pressure
    !> drives the oil along the sliding, so that its flow has the slope of the stress over the rate (tangent), `eta_t = eta/sqrt(1 +
    !> (eta V_s/(h tau_E))^2)`: Conry, Wang and Cusano, J. Tribology 109 (1987) 648, where the stress that the drop of pressure makes
-   !> across the film is small beside tau_E.
+   !> across the film is small beside tau_E. A problem may leave the flow as it is.
    pure subroutine thin_by_sliding(problem, film, shear_value, flow_value, shear_part, flow_part)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem
@@ -176,14 +176,18 @@ contains
       if (log_stress > 300.0_wp) then
          thinned = log_stress + log(2.0_wp)
          shear_part = 1.0_wp/thinned
-         flow_part = 0.0_wp
-         flow_value = shear_value - log_stress
+         if (problem%thins_flow) then
+            flow_part = 0.0_wp
+            flow_value = shear_value - log_stress
+         end if
       else
          stress = exp(log_stress)
          thinned = asinh(stress)
          shear_part = stress/hypot(1.0_wp, stress)/thinned
-         flow_part = 1.0_wp/hypot(1.0_wp, stress)**2
-         flow_value = shear_value - log(hypot(1.0_wp, stress))
+         if (problem%thins_flow) then
+            flow_part = 1.0_wp/hypot(1.0_wp, stress)**2
+            flow_value = shear_value - log(hypot(1.0_wp, stress))
+         end if
       end if
       shear_value = log(thinned*film/problem%shear)
    end subroutine thin_by_sliding

@@ -13,7 +13,7 @@ module camroller_ehl_settling
    implicit none
    private
 
-   public :: settle
+   public :: put_back, settle
 
    !> First step and shortest, and that from which on the steady film is tried, over the time in which the surfaces' mean speed
    !> travels one half width [-]

@@ -24,7 +24,7 @@ module camroller_ehl_table
       real(wp) :: accuracy = 1.0e-2_wp
       !> Does the density of the oil grow with the pressure?
       logical :: compressible = .true.
-      !> Does sliding thin the oil of profiles and of contacts solved over the cycle, where the shear law is Eyring's?
+      !> Does sliding thin the oil that flows through profiles and contacts solved over the cycle, where the shear law is Eyring's?
       logical :: shear_thinning = .true.
       !> Does roughness hinder their flow?
       logical :: flow_factors = .false.

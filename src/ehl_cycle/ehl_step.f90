@@ -202,7 +202,7 @@ contains
       if (allocated(model%ehl)) then
          contact%is_compressible = model%ehl%compressible
          contact%has_flow_factors = model%ehl%flow_factors
-         if (.not. model%ehl%shear_thinning) contact%eyring_stress = 0.0_wp
+         contact%thins_flow = model%ehl%shear_thinning
       end if
       if (allocated(model%boundary) .or. contact%has_flow_factors) contact%roughness = model%roughness
       if (allocated(model%boundary)) contact%asperity = model%boundary%constants

@@ -31,7 +31,7 @@ module test_ehl_heat
    implicit none
    private
 
-   public :: collect_ehl_heat
+   public :: collect_ehl_heat, solve
 
    !> Steel: conductivity [W/(m K)], heat capacity over volume [J/(m^3 K)]
    real(wp), parameter :: steel = 46.0_wp, steel_capacity = 7850.0_wp*460.0_wp
@@ -53,6 +53,7 @@ contains
          new_unittest("rises are those of a film whose temperature is resolved across it", test_resolved), &
          new_unittest("film and rise converge with the nodes", test_grids), &
          new_unittest("contacts along a cycle are warm, and their films thinner than without heat", test_profiles), &
+         new_unittest("thick films whose first heat is far too much are found, each from nothing", test_thick), &
          new_unittest("a numerical film as a law takes the factor of the inlet", test_law) &
          ]
    end subroutine collect_ehl_heat
@@ -436,6 +437,36 @@ contains
       call check(error, all(maxval(warm%film_rise, dim=1) > 0.0_wp) .and. maxval(warm%film_rise) > 3.0_wp &
          & .and. maxval(warm%film_rise) < 100.0_wp, "rises")
    end subroutine test_profiles
+
+   !> At 3000 rev/min with oil of 25 degC the heat of the cold film takes the viscosity down to a sixth, on nodes that reach 3000
+   !> half widths upstream for the sake of the lightest load.
+   subroutine test_thick(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Cam angles [deg]
+      real(wp), parameter :: angles(3) = [131.0_wp, 136.0_wp, 138.5_wp]
+      type(case_t) :: case
+      type(result_t) :: result, one
+      type(ehl_record_t) :: warm
+      type(error_t), allocatable :: failure
+      integer :: i, k
+
+      case = thesis_case()
+      call set_point(case, 100.0_wp*pi, point_viscosities(1))
+      call add_heat(case)
+      call run(case, result, error)
+      if (allocated(error)) return
+      do i = 1, size(angles)
+         k = minloc(abs(result%angle - angles(i)), dim=1)
+         one = result
+         one%angle = result%angle(k:k)
+         one%series_values = result%series_values(k:k, :)
+         call make_profiles(warm, case, one, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call check(error, maxval(warm%film_rise) > 10.0_wp .and. maxval(warm%film_rise) < 40.0_wp, "rise")
+         if (allocated(error)) return
+      end do
+   end subroutine test_thick
 
    subroutine test_law(error)
       type(error_type), allocatable, intent(out) :: error

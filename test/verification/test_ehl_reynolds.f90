@@ -90,7 +90,7 @@ contains
       type(ehl_contact_t) :: contact
       type(ehl_problem_t) :: problem
       type(ehl_grid_t) :: grid
-      type(ehl_fields_t) :: plain, thinned
+      type(ehl_fields_t) :: plain, thinned, thick
       integer, parameter :: nodes = 33, pieces = 2000, middle = 16
       ! Film over its scale, change of the stress across the film over the Eyring stress [-]
       real(wp), parameter :: gap = 0.4_wp, change = 1.0e-3_wp
@@ -121,6 +121,16 @@ contains
          if (allocated(error)) return
          call check_scaled(error, exp(thinned%log_viscosity(middle) - plain%log_viscosity(middle)), mean/stress, 1.0_wp, &
             & 1.0e-6_wp, "shear")
+         if (allocated(error)) return
+         contact%thins_flow = .false.
+         call new_ehl_problem(problem, contact, status)
+         contact%thins_flow = .true.
+         call flow_at(problem, thick)
+         call check_scaled(error, thick%driven(middle), plain%driven(middle), abs(plain%driven(middle)), &
+            & epsilon(1.0_wp), "flow that is not to thin")
+         if (allocated(error)) return
+         call check_scaled(error, thick%log_viscosity(middle), thinned%log_viscosity(middle), 1.0_wp, epsilon(1.0_wp), &
+            & "shear beside it")
          if (allocated(error)) return
       end do
 
