@@ -206,10 +206,12 @@ contains
       call find_lift_noise(lift, noise)
       if (.not. noise%is_known) return
       text = text//"lift table: noise of about "//number_text(1.0e6_wp*noise%noise, 2)//" um, smoothing_um = "// &
-         & number_text(1.0e6_wp*lift%smoothing, 3)//"; second derivative "//number_text(1.0e3_wp*noise%given(1), digits)// &
-         & " to "//number_text(1.0e3_wp*noise%given(2), digits)//" mm/rad^2, with smoothing by the noise "// &
-         & number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "//number_text(1.0e3_wp*noise%smoothed(2), digits)// &
-         & " (residual "//number_text(1.0e6_wp*noise%residual, 2)//" um)"//new_line("a")
+         & number_text(1.0e6_wp*lift%smoothing, 3)//"; second derivative"// &
+         & trim(merge(" of its values", "              ", allocated(lift%given_lift)))//" "// &
+         & number_text(1.0e3_wp*noise%given(1), digits)//" to "//number_text(1.0e3_wp*noise%given(2), digits)// &
+         & " mm/rad^2, with smoothing by the noise "//number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "// &
+         & number_text(1.0e3_wp*noise%smoothed(2), digits)//" (residual "//number_text(1.0e6_wp*noise%residual, 2)//" um)"// &
+         & new_line("a")
    end subroutine describe_table
 
    !> One lobe.

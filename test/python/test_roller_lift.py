@@ -58,6 +58,31 @@ def test_an_impossible_roller_lift_is_refused(camroller, tmp_path):
     assert result.returncode == 3 and "the roller cannot be so far from the cam" in result.stderr
 
 
+def noise_of(rows):
+    """Deviates of a mean square of one, always the same ones."""
+    return np.random.default_rng(11).normal(size=rows)
+
+
+def test_smoothing_counts_in_the_lift_that_the_table_holds(camroller, tmp_path):
+    angle, lift = np.loadtxt(ROOT / "decks/tables/polynomial_lift.txt").T
+    inside = lift > 1e-3
+    given = np.where(inside, roller_lift(lift) + 1e-3 * noise_of(lift.size), 0)
+    np.savetxt(tmp_path / "roller.txt", np.column_stack([angle, given]), fmt="%.9f")
+    values = [f"lift.table={tmp_path / 'roller.txt'}", "lift.table_kind=roller_lift", "lift.smoothing_um=1"]
+    after = summary(camroller, tmp_path, *values)
+    with h5py.File(tmp_path / "a.h5") as file:
+        places, first = np.unique(file["series/cam_angle"][:], return_index=True)
+        curve = make_interp_spline(places, file["series/valve_lift"][0][first] * 1e3, k=5)(angle)
+    event = slice(np.argmax(inside) - 1, inside.size - np.argmax(inside[::-1]) + 1)
+    assert np.sqrt(np.mean((roller_lift(curve) - given)[event] ** 2)) == pytest.approx(1e-3, rel=0.02)
+    exact = summary(camroller, tmp_path)
+    assert after["max_hertz_pressure"] == pytest.approx(exact["max_hertz_pressure"], rel=0.02)
+    told = subprocess.run([camroller, "check", "decks/tabulated_lift.nml", "--no-sweep", *(w for v in values for w in ("--set", v))],
+                          capture_output=True, text=True, cwd=ROOT, check=True).stdout
+    noise = float(re.search(r"lift table: noise of about ([\d.]+) um, smoothing_um = 1; second derivative of its values", told)[1])
+    assert noise == pytest.approx(1, rel=0.3)
+
+
 def contour(sense):
     """Radii [mm] over the polar angle [deg] of the cam whose valve lift is the table's, as the envelope of the roller.
 
