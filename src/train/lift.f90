@@ -18,7 +18,7 @@ module camroller_lift
 
    public :: lift_t, lift_law_t, lift_law_names
    public :: new_lift_law, given_table, evaluate_lift, is_at_rest, is_tabulated, stop_angles, highest_lift, resolving_angles
-   public :: largest_exponent
+   public :: event_ends, largest_exponent
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
@@ -199,6 +199,16 @@ contains
 
       lift = law%max_lift
    end function highest_lift
+
+   !> Where the event of a law starts and ends; a turn apart where it has no rest.
+   pure function event_ends(law) result(angles)
+      !> The law
+      type(lift_law_t), intent(in) :: law
+      !> Cam angles from full lift [rad]
+      real(wp) :: angles(2)
+
+      angles = [law%first, law%last]
+   end function event_ends
 
    !> How many even angles of a turn show the curvature of a lift: with rows of a table closer than a degree, whose noise is in it
    !> from row to row, four for each.
