@@ -34,7 +34,6 @@ module camroller_deck_tables
    real(wp), parameter :: zero_lift = 1.0e-9_wp
    !> What counts as the base circle in a contour, relative to the largest height over it: radii are measured [-]
    real(wp), parameter :: zero_height = 1.0e-4_wp
-
    !> Difference of two pressures that are taken for the same, relative to the largest pressure [-]
    real(wp), parameter :: same_pressure = 1.0e-6_wp
 
@@ -228,8 +227,7 @@ contains
          call row_mistake(table, top, "the largest lift is at "//number_text(table%x(top), 6)//" of "// &
             & number_text(table%x(1), 6)//" to "//number_text(table%x(n), 6)//" degrees"//ask_crank, mistakes)
       else if (abs(table%x(top) - nose_degrees) > nose_distance) then
-         call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)// &
-            & " degrees, is far from the "// &
+         call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)//" degrees, is far from the "// &
             & "nose at "//number_text(nose_degrees, 6)//"; see 'table_nose_angle_deg' of &"//group, mistakes)
       else if (table%x(first) < nose_degrees - 180.0_wp .or. table%x(last) > nose_degrees + 180.0_wp) then
          call row_mistake(table, merge(first, last, table%x(first) < nose_degrees - 180.0_wp), "the lift must lie within 180 "// &
@@ -256,16 +254,14 @@ contains
       integer :: n
 
       n = size(lift)
-      if (is_contour) then
-         if (abs(lift(1)) > nothing) call row_mistake(table, 1, "the contour must start on the base circle", mistakes)
-         if (abs(lift(n)) > nothing) call row_mistake(table, n, "the contour must end on the base circle", mistakes)
-         if (any(lift < -nothing)) call row_mistake(table, minloc(lift, dim=1), "a radius below the base circle's", mistakes)
-         return
-      end if
-      advice = "; where rows on the base circle hold noise, set them to 0, or give 'smoothing_um' of &"//group
-      if (abs(lift(1)) > nothing) call row_mistake(table, 1, "the lift must start at zero"//advice, mistakes)
-      if (abs(lift(n)) > nothing) call row_mistake(table, n, "the lift must end at zero"//advice, mistakes)
-      if (any(lift < -nothing)) call row_mistake(table, minloc(lift, dim=1), "negative lift"//advice, mistakes)
+      advice = "; where rows on the base circle hold noise, set them to "//trim(merge("its radius", "0         ", is_contour))// &
+         & ", or give 'smoothing_um' of &"//group
+      if (abs(lift(1)) > nothing) call row_mistake(table, 1, trim(merge("the contour must start on the base circle", &
+         & "the lift must start at zero              ", is_contour))//advice, mistakes)
+      if (abs(lift(n)) > nothing) call row_mistake(table, n, trim(merge("the contour must end on the base circle", &
+         & "the lift must end at zero              ", is_contour))//advice, mistakes)
+      if (any(lift < -nothing)) call row_mistake(table, minloc(lift, dim=1), trim(merge("a radius below the base circle's", &
+         & "negative lift                   ", is_contour))//advice, mistakes)
    end subroutine check_rest
 
    !> Can the roller follow a contour, or be where its lift has it?
@@ -448,8 +444,7 @@ contains
       call take(settings, "roller", "radius_mm", mechanism%roller_radius)
    end subroutine take_mechanism
 
-   !> Pressure over one turn from half a turn before full lift, increasing; a last row that repeats the first is left
-   !> out.
+   !> Pressure over one turn from half a turn before full lift, increasing; a last row that repeats the first is left out.
    subroutine get_pressure_table(settings, table, angle, pressure)
       !> The settings
       type(settings_t), intent(in) :: settings

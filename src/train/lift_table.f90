@@ -32,7 +32,7 @@ module camroller_lift_table
    real(wp), parameter :: no_noise = 0.01_wp
    !> Fewest rows of which the noise is known
    integer, parameter :: fewest_noisy = 24
-   !> Largest step over the smallest there [-]
+   !> Largest step over the smallest there; or how far at most a step is from the mean of those beside it, over itself, and one [-]
    real(wp), parameter :: most_uneven = 1.01_wp
    !> Order of the differences
    integer, parameter :: order = 6
@@ -282,7 +282,8 @@ contains
       noise = median(abs(differences))/(median_deviate*sqrt(squares))
    end subroutine estimate_noise
 
-   !> Are there enough rows, at even steps, for differences to tell noise from lift?
+   !> Are there enough rows, at even steps, for differences to tell noise from lift? Steps may change slowly, as those of the polar
+   !> angles of a contour at even cam angles do: the lift is a smooth function of the row's number then too.
    pure function has_even_rows(angle) result(verdict)
       !> Cam angle, increasing [any]
       real(wp), intent(in) :: angle(:)
@@ -292,7 +293,8 @@ contains
       verdict = size(angle) >= fewest_noisy
       if (.not. verdict) return
       associate (steps => angle(2:) - angle(:size(angle) - 1))
-         verdict = maxval(steps) <= most_uneven*minval(steps)
+         verdict = maxval(steps) <= most_uneven*minval(steps) .or. all(abs(steps(2:size(steps) - 1) - 0.5_wp*(steps(3:) + &
+            & steps(:size(steps) - 2))) <= (most_uneven - 1.0_wp)*steps(2:size(steps) - 1))
       end associate
    end function has_even_rows
 

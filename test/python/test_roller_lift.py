@@ -121,7 +121,38 @@ def test_the_contour_of_the_cam_gives_the_lift_that_it_was_made_of(camroller, tm
         assert second[name] == pytest.approx(first[name], rel=share), name
 
 
+def noisy_contour(camroller, folder, is_even, size):
+    """A contour with noise of a size [um] on the whole turn: at even polar angles, or at those of even cam angles."""
+    if is_even:
+        polar, radius = contour(1)
+        rest = np.arange(0.5, 60, 0.5)
+        polar = np.concatenate([polar[0] - rest[::-1], polar, polar[-1] + rest])
+        radius = np.pad(radius, rest.size, constant_values=BASE)
+    else:
+        table = cam_table(camroller, folder, "decks/tabulated_lift.nml")
+        polar, radius = table["polar_angle [deg]"], table["cam_radius [mm]"]
+    np.savetxt(folder / "contour.txt", np.column_stack([polar, radius + 1e-3 * size * noise_of(radius.size)]), fmt="%.9f")
+    return [f"lift.table={folder / 'contour.txt'}", "lift.table_kind=cam_contour"]
+
+
+@pytest.mark.parametrize("is_even", [True, False])
+def test_noise_of_a_contour_is_told_and_smoothed(camroller, tmp_path, is_even):
+    exact = summary(camroller, tmp_path)["max_hertz_pressure"]
+    values = noisy_contour(camroller, tmp_path, is_even, 0.1)
+    words = [camroller, "check", "decks/tabulated_lift.nml", "--no-sweep", *(w for v in values for w in ("--set", v))]
+    told = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, check=True)
+    noise = re.search(r"contour.txt: the table has noise of about ([\d.]+) um, which makes its second derivative", told.stderr)
+    assert float(noise[1]) == pytest.approx(0.1, rel=0.3)
+    assert f"lift table: noise of about {noise[1]} um, smoothing_um = 0; second derivative of its values" in told.stdout
+    for size in (0.1, 1):
+        values = noisy_contour(camroller, tmp_path, is_even, size)
+        after = summary(camroller, tmp_path, *values, f"lift.smoothing_um={size}")
+        assert after["max_hertz_pressure"] == pytest.approx(exact, rel=0.01), size
+
+
 @pytest.mark.parametrize("change, words", [
+    (lambda radius: radius + 2e-3 * (radius > BASE + 1e-4) * abs(noise_of(radius.size)), "or noise, which 'smoothing_um' of &lift takes out"),
+    (lambda radius: radius + 2e-3 * noise_of(radius.size), "set them to its radius, or give 'smoothing_um' of &lift"),
     (lambda radius: radius - 17, "no radius is above the base circle's"),
     (lambda radius: radius + 0.5, "the contour must start on the base circle"),
     (lambda radius: 18 + (radius - 18) * (1 + 0.3 * (np.arange(radius.size) % 40 == 20)), "the roller does not touch the contour here"),
