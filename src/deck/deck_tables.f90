@@ -13,7 +13,7 @@ module camroller_deck_tables
    use camroller_kinematics, only : mechanism_t
    use camroller_lift, only : lift_t
    use camroller_lift_forms, only : closes_triangle, follow_table, kind_contour, kind_valve, table_kind_names, valve_lift_of
-   use camroller_lift_table, only : noise_reach
+   use camroller_lift_table, only : no_noise, noise_reach
    use camroller_text_file, only : join_path
    use camroller_table_file, only : check_spacing, columns_t, read_table, table_t
    implicit none
@@ -218,6 +218,15 @@ contains
             & kind == kind_contour)), mistakes)
          return
       end if
+      if (runs_across(table%x, lift, nothing)) then
+         first = findloc(lift <= nothing, .true., dim=1)
+         last = findloc(lift <= nothing, .true., dim=1, back=.true.)
+         call row_mistake(table, top, "the event runs across the end of the table: move the rows from "// &
+            & number_text(table%x((first + last)/2), 6)//" degrees on before the others, at 360 degrees less"// &
+            & trim(merge(", but for the last one, which is the first one again", repeat(" ", 52), &
+            & table%x(n) - table%x(1) >= 360.0_wp)), mistakes)
+         return
+      end if
       call check_rest(group, table, lift, nothing, kind == kind_contour, mistakes)
       ! What is not lifted may be anywhere: a contour closes, wherever its polar angle begins
       first = findloc(lift > nothing, .true., dim=1)
@@ -236,6 +245,21 @@ contains
          call check_form(settings, group, table, kind, mistakes)
       end if
    end subroutine check_lift
+
+   !> Does the event of a table of a turn begin before the turn's end, and end in the next turn?
+   pure function runs_across(angle, lift, nothing) result(verdict)
+      !> Cam angles, increasing [deg]
+      real(wp), intent(in) :: angle(:)
+      !> Lift, of a contour the height over the base circle; what counts as zero [any]
+      real(wp), intent(in) :: lift(:), nothing
+      !> Does it?
+      logical :: verdict
+
+      associate (n => size(lift))
+         verdict = angle(n) - angle(1) >= 360.0_wp - 2.0_wp*maxval(angle(2:) - angle(:n - 1)) .and. &
+            & min(lift(1), lift(n)) > max(nothing, no_noise*maxval(lift)) .and. any(lift <= nothing)
+      end associate
+   end function runs_across
 
    !> Does a table start and end at zero, and go nowhere below?
    subroutine check_rest(group, table, lift, nothing, is_contour, mistakes)

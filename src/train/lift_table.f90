@@ -14,7 +14,8 @@ module camroller_lift_table
    implicit none
    private
 
-   public :: new_table_event, fit_event, find_event, estimate_noise, has_even_rows, least_step, median, median_deviate, noise_reach
+   public :: new_table_event, fit_event, find_event, estimate_noise, has_even_rows, least_step, median, median_deviate
+   public :: noise_reach, no_noise
 
    !> Fewest rows of an event
    integer, parameter :: min_rows = 5
