@@ -96,9 +96,7 @@ contains
       call take(settings, group, "exponents", lift%exponents)
       call take(settings, group, "segment_angles_deg", lift%segment_angles)
       call take(settings, group, "segment_accelerations", lift%segment_accelerations)
-      call take(settings, group, "smoothing_um", lift%smoothing)
-      if (lift%law /= "table") return
-      call get_lift_table(settings, group, table, lift%table_angle, lift%table_lift)
+      if (lift%law == "table") call get_lift_table(settings, group, table, lift)
    end subroutine fill_lift
 
    !> Masses, spring and cylinder pressure.

@@ -11,7 +11,7 @@ module camroller_deck_table_remarks
    use camroller_engine, only : from_firing
    use camroller_error, only : error_t
    use camroller_kinds, only : degree, wp
-   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law
+   use camroller_lift, only : evaluate_lift, given_table, lift_law_t, lift_t, new_lift_law
    use camroller_lift_noise, only : find_lift_noise, find_outlier, lift_noise_t
    use camroller_lift_table, only : find_event
    use camroller_text_lines, only : add_line, line_t
@@ -54,8 +54,7 @@ contains
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Cam angle from the nose [rad], lift of the valve [m]
-      real(wp), allocatable :: angle(:), lift(:)
+      type(lift_t) :: lift
       ! Largest lift [m]; length of the event, middle of full lift from the nose [deg]
       real(wp) :: largest, length, full
       character(len=:), allocatable :: words
@@ -63,8 +62,8 @@ contains
 
       if (.not. allocated(table%x) .or. get_word(settings, group, "law") /= "table") return
       if (size(table%x) == 0) return
-      call get_lift_table(settings, group, table, angle, lift)
-      largest = maxval(lift)
+      call get_lift_table(settings, group, table, lift)
+      largest = maxval(lift%table_lift)
       if (largest < usual_lift(1) .or. largest > usual_lift(2)) then
          words = ""
          do i = 1, size(slips)
@@ -74,19 +73,19 @@ contains
          call add_line(remarks, table%path//": a largest lift of "//number_text(1.0e3_wp*largest, digits)// &
             & " mm is unusual: engines have 1 to 25 mm"//words)
       end if
-      call remark_noise(settings, group, table, remarks)
-      first = findloc(lift >= full_part*largest, .true., dim=1)
-      last = findloc(lift >= full_part*largest, .true., dim=1, back=.true.)
-      full = 0.5_wp*(angle(first) + angle(last))/degree
+      call remark_noise(group, table%path, lift, remarks)
+      first = findloc(lift%table_lift >= full_part*largest, .true., dim=1)
+      last = findloc(lift%table_lift >= full_part*largest, .true., dim=1, back=.true.)
+      full = 0.5_wp*(lift%table_angle(first) + lift%table_angle(last))/degree
       if (abs(full) > usual_offset) call add_line(remarks, table%path//": the largest lift is "//number_text(abs(full), 3)// &
          & " degrees "//trim(merge("before", "behind", full < 0.0_wp))//" the nose, from which phases, gas pressure and cam "// &
          & "angles count; is 'table_nose_angle_deg' of &"//group//" right?")
-      call remark_event(settings, group, table%path, angle, lift, low, high, remarks)
-      length = (angle(high) - angle(low))/degree
+      call remark_event(settings, group, table%path, lift, low, high, remarks)
+      length = (lift%table_angle(high) - lift%table_angle(low))/degree
       if (length >= usual_event(1) .and. length <= usual_event(2)) return
       words = ""
       if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = ask_crank
-      if (2*count(lift(low:high) < nearly_zero*largest) > high - low + 1) words = "; most of its lifts are below "// &
+      if (2*count(lift%table_lift(low:high) < nearly_zero*largest) > high - low + 1) words = "; most of its lifts are below "// &
          & number_text(100.0_wp*nearly_zero, digits)//" % of the largest: where they are noise on the base circle, set them to 0"
       call add_line(remarks, table%path//": an event of "//number_text(length, digits)// &
          & " degrees of cam angle is unusual: engines have "//number_text(usual_event(1), digits)//" to "// &
@@ -94,54 +93,57 @@ contains
    end subroutine remark_lift
 
    !> The event of a lift table that has noise on the base circle.
-   subroutine remark_event(settings, group, path, angle, lift, low, high, remarks)
+   subroutine remark_event(settings, group, path, lift, low, high, remarks)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Group of the lift, path of its table
       character(len=*), intent(in) :: group, path
-      !> Cam angle from the nose [rad], lift of the valve [m]
-      real(wp), intent(in) :: angle(:), lift(:)
-      !> First and last row of the event
+      !> The lift
+      type(lift_t), intent(in) :: lift
+      !> First and last row of the event in the lift of the valve
       integer, intent(out) :: low, high
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Smoothing, farthest row from zero beyond the event [m]; cam angle of the nose in the table [rad]
-      real(wp) :: smoothing, farthest, nose
+      type(lift_t) :: given
+      ! Farthest row from zero beyond the event [m]; cam angle of the nose in the table [rad]
+      real(wp) :: farthest, nose
+      integer :: first, last
 
-      call take(settings, group, "smoothing_um", smoothing)
-      call find_event(angle, lift, smoothing, low, high)
-      farthest = maxval(abs([0.0_wp, lift(:low), lift(high:)]))
+      given = given_table(lift)
+      call find_event(given%table_angle, given%table_lift, given%smoothing, first, last)
+      low = first
+      high = last
+      if (allocated(lift%given_lift)) then
+         low = 1
+         high = size(lift%table_lift)
+      end if
+      farthest = maxval(abs([0.0_wp, given%table_lift(:first), given%table_lift(last:)]))
       if (farthest <= 0.0_wp) return
       call take(settings, group, "table_nose_angle_deg", nose)
-      call add_line(remarks, path//": the event is taken from "//number_text((angle(low) + nose)/degree, digits)//" to "// &
-         & number_text((angle(high) + nose)/degree, digits)//" degrees; lifts beyond it, up to "// &
+      call add_line(remarks, path//": the event is taken from "//number_text((given%table_angle(first) + nose)/degree, digits)// &
+         & " to "//number_text((given%table_angle(last) + nose)/degree, digits)//" degrees; lifts beyond it, up to "// &
          & number_text(1.0e6_wp*farthest, 2)//" um from zero, count as noise on the base circle")
    end subroutine remark_event
 
    !> A lift table whose noise makes up the acceleration.
-   subroutine remark_noise(settings, group, table, remarks)
-      !> The settings
-      type(settings_t), intent(in) :: settings
-      !> Group of the lift
-      character(len=*), intent(in) :: group
-      !> Its table
-      type(table_t), intent(in) :: table
+   subroutine remark_noise(group, path, lift, remarks)
+      !> Group of the lift, path of its table
+      character(len=*), intent(in) :: group, path
+      !> The lift
+      type(lift_t), intent(in) :: lift
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
       ! Growth of the acceleration that is worth a word [-]
       real(wp), parameter :: large = 1.1_wp
-      type(lift_t) :: lift
       type(lift_noise_t) :: noise
 
-      lift%law = "table"
-      call take(settings, group, "smoothing_um", lift%smoothing)
-      call get_lift_table(settings, group, table, lift%table_angle, lift%table_lift)
       call find_lift_noise(lift, noise)
       if (.not. noise%is_known .or. lift%smoothing >= noise%noise) return
       if (all(abs(noise%given) <= large*abs(noise%smoothed))) return
-      call add_line(remarks, table%path//": the lift has noise of about "//number_text(1.0e6_wp*noise%noise, 2)// &
+      call add_line(remarks, path//": the "//trim(merge("table", "lift ", allocated(lift%given_lift)))// &
+         & " has noise of about "//number_text(1.0e6_wp*noise%noise, 2)// &
          & " um, which makes its second derivative "//number_text(1.0e3_wp*noise%given(1), 3)//" to "// &
          & number_text(1.0e3_wp*noise%given(2), 3)//" mm/rad^2; with smoothing_um = "//number_text(1.0e6_wp*noise%noise, 2)// &
          & " in &"//group//" it is "//number_text(1.0e3_wp*noise%smoothed(1), 3)//" to "// &

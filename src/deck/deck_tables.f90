@@ -11,9 +11,9 @@ module camroller_deck_tables
    use camroller_deck_complaint, only : complain
    use camroller_deck_table_headings, only : check_heading, wanted_columns
    use camroller_kinematics, only : mechanism_t
-   use camroller_lift_forms, only : closes_triangle, follow_contour, kind_contour, kind_roller, table_kind_names, &
-      & valve_lift_of
-   use camroller_lift_table, only : noise_reach
+   use camroller_lift, only : lift_t
+   use camroller_lift_forms, only : closes_triangle, follow_table, kind_contour, kind_valve, table_kind_names, valve_lift_of
+   use camroller_lift_table, only : no_noise, noise_reach
    use camroller_text_file, only : join_path
    use camroller_table_file, only : check_spacing, columns_t, read_table, table_t
    implicit none
@@ -34,7 +34,6 @@ module camroller_deck_tables
    real(wp), parameter :: zero_lift = 1.0e-9_wp
    !> What counts as the base circle in a contour, relative to the largest height over it: radii are measured [-]
    real(wp), parameter :: zero_height = 1.0e-4_wp
-
    !> Difference of two pressures that are taken for the same, relative to the largest pressure [-]
    real(wp), parameter :: same_pressure = 1.0e-6_wp
 
@@ -211,22 +210,24 @@ contains
       if (kind == kind_contour) lift = lift - from_si(unit, mechanism%base_radius)
       top = maxloc(lift, dim=1)
       largest = lift(top)
-      nothing = zero_height*largest
-      if (kind /= kind_contour) then
-         smoothing = 0.0_wp
-         call take(settings, group, "smoothing_um", smoothing)
-         nothing = max(zero_lift*largest, from_si(unit, noise_reach*smoothing))
-      end if
+      smoothing = 0.0_wp
+      call take(settings, group, "smoothing_um", smoothing)
+      nothing = max(merge(zero_height, zero_lift, kind == kind_contour)*largest, from_si(unit, noise_reach*smoothing))
       if (largest <= 0.0_wp) then
          call row_mistake(table, top, trim(merge("no radius is above the base circle's", "the table has no lift above zero    ", &
             & kind == kind_contour)), mistakes)
          return
       end if
-      call check_rest(group, table, lift, nothing, kind == kind_contour, mistakes)
-      if (kind == kind_roller) then
-         if (.not. closes_triangle(mechanism, to_si(unit, largest))) call row_mistake(table, top, "the roller cannot be so far "// &
-            & "from the cam: its arm is shorter; is this a lift of the roller ('table_kind'), and is 'table_unit' right?", mistakes)
+      if (runs_across(table%x, lift, nothing)) then
+         first = findloc(lift <= nothing, .true., dim=1)
+         last = findloc(lift <= nothing, .true., dim=1, back=.true.)
+         call row_mistake(table, top, "the event runs across the end of the table: move the rows from "// &
+            & number_text(table%x((first + last)/2), 6)//" degrees on before the others, at 360 degrees less"// &
+            & trim(merge(", but for the last one, which is the first one again", repeat(" ", 52), &
+            & table%x(n) - table%x(1) >= 360.0_wp)), mistakes)
+         return
       end if
+      call check_rest(group, table, lift, nothing, kind == kind_contour, mistakes)
       ! What is not lifted may be anywhere: a contour closes, wherever its polar angle begins
       first = findloc(lift > nothing, .true., dim=1)
       last = findloc(lift > nothing, .true., dim=1, back=.true.)
@@ -235,16 +236,30 @@ contains
          call row_mistake(table, top, "the largest lift is at "//number_text(table%x(top), 6)//" of "// &
             & number_text(table%x(1), 6)//" to "//number_text(table%x(n), 6)//" degrees"//ask_crank, mistakes)
       else if (abs(table%x(top) - nose_degrees) > nose_distance) then
-         call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)// &
-            & " degrees, is far from the "// &
+         call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)//" degrees, is far from the "// &
             & "nose at "//number_text(nose_degrees, 6)//"; see 'table_nose_angle_deg' of &"//group, mistakes)
       else if (table%x(first) < nose_degrees - 180.0_wp .or. table%x(last) > nose_degrees + 180.0_wp) then
          call row_mistake(table, merge(first, last, table%x(first) < nose_degrees - 180.0_wp), "the lift must lie within 180 "// &
             & "degrees of the nose at "//number_text(nose_degrees, 6), mistakes)
-      else if (kind == kind_contour .and. mistakes%count == 0) then
-         call check_contour(settings, group, table, mechanism, mistakes)
+      else if (kind /= kind_valve .and. mistakes%count == 0) then
+         call check_form(settings, group, table, kind, mistakes)
       end if
    end subroutine check_lift
+
+   !> Does the event of a table of a turn begin before the turn's end, and end in the next turn?
+   pure function runs_across(angle, lift, nothing) result(verdict)
+      !> Cam angles, increasing [deg]
+      real(wp), intent(in) :: angle(:)
+      !> Lift, of a contour the height over the base circle; what counts as zero [any]
+      real(wp), intent(in) :: lift(:), nothing
+      !> Does it?
+      logical :: verdict
+
+      associate (n => size(lift))
+         verdict = angle(n) - angle(1) >= 360.0_wp - 2.0_wp*maxval(angle(2:) - angle(:n - 1)) .and. &
+            & min(lift(1), lift(n)) > max(nothing, no_noise*maxval(lift)) .and. any(lift <= nothing)
+      end associate
+   end function runs_across
 
    !> Does a table start and end at zero, and go nowhere below?
    subroutine check_rest(group, table, lift, nothing, is_contour, mistakes)
@@ -263,38 +278,39 @@ contains
       integer :: n
 
       n = size(lift)
-      if (is_contour) then
-         if (abs(lift(1)) > nothing) call row_mistake(table, 1, "the contour must start on the base circle", mistakes)
-         if (abs(lift(n)) > nothing) call row_mistake(table, n, "the contour must end on the base circle", mistakes)
-         if (any(lift < -nothing)) call row_mistake(table, minloc(lift, dim=1), "a radius below the base circle's", mistakes)
-         return
-      end if
-      advice = "; where rows on the base circle hold noise, set them to 0, or give 'smoothing_um' of &"//group
-      if (abs(lift(1)) > nothing) call row_mistake(table, 1, "the lift must start at zero"//advice, mistakes)
-      if (abs(lift(n)) > nothing) call row_mistake(table, n, "the lift must end at zero"//advice, mistakes)
-      if (any(lift < -nothing)) call row_mistake(table, minloc(lift, dim=1), "negative lift"//advice, mistakes)
+      advice = "; where rows on the base circle hold noise, set them to "//trim(merge("its radius", "0         ", is_contour))// &
+         & ", or give 'smoothing_um' of &"//group
+      if (abs(lift(1)) > nothing) call row_mistake(table, 1, trim(merge("the contour must start on the base circle", &
+         & "the lift must start at zero              ", is_contour))//advice, mistakes)
+      if (abs(lift(n)) > nothing) call row_mistake(table, n, trim(merge("the contour must end on the base circle", &
+         & "the lift must end at zero              ", is_contour))//advice, mistakes)
+      if (any(lift < -nothing)) call row_mistake(table, minloc(lift, dim=1), trim(merge("a radius below the base circle's", &
+         & "negative lift                   ", is_contour))//advice, mistakes)
    end subroutine check_rest
 
-   !> Can the roller follow a contour?
-   subroutine check_contour(settings, group, table, mechanism, mistakes)
+   !> Can the roller follow a contour, or be where its lift has it?
+   subroutine check_form(settings, group, table, kind, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Group that names the table
       character(len=*), intent(in) :: group
       !> The table
       type(table_t), intent(in) :: table
-      !> Dimensions
-      type(mechanism_t), intent(in) :: mechanism
+      !> `kind_roller` or `kind_contour`
+      integer, intent(in) :: kind
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
+      type(mechanism_t) :: mechanism
+      type(lift_t) :: given
       ! [rad], [m]
-      real(wp), allocatable :: angle(:), lift(:), polar(:), height(:)
+      real(wp), allocatable :: angle(:), lift(:)
       type(error_t), allocatable :: error
-      integer :: i, first, last
+      integer :: i, before, first
 
-      call cut_contour(settings, group, table, mechanism, polar, height, first, last)
-      call follow_contour(mechanism, polar, height, angle, lift, error)
+      call take_mechanism(settings, mechanism)
+      call take_given(settings, group, table, given, before)
+      call follow_table(mechanism, kind, given, first, angle, lift, error)
       if (allocated(error)) then
          call complain(mistakes, settings, group, "table", error%message)
          return
@@ -302,53 +318,66 @@ contains
       do i = 1, size(angle)
          if (i > 1) then
             if (angle(i) <= angle(i - 1)) then
-               call row_mistake(table, first + i - 1, "the roller does not touch the contour here: a hollow narrower than the "// &
-                  & "roller, noise, or a mistake in the row; are 'table_unit' and the roller's radius right?", mistakes)
+               call row_mistake(table, before + first + i - 1, "the roller does not touch the contour here: a hollow narrower "// &
+                  & "than the roller, a mistake in the row, or noise, which 'smoothing_um' of &"//group//" takes out; are "// &
+                  & "'table_unit' and the roller's radius right?", mistakes)
                return
             end if
          end if
          if (.not. closes_triangle(mechanism, lift(i))) then
-            call row_mistake(table, first + i - 1, "the roller cannot be so far from the cam: its arm is shorter; is this a "// &
-               & "contour of the cam ('table_kind'), and is 'table_unit' right?", mistakes)
+            call row_mistake(table, before + first + i - 1, "the roller cannot be so far from the cam: its arm is shorter; is "// &
+               & "this a "//trim(merge("contour of the cam", "lift of the roller", kind == kind_contour))// &
+               & " ('table_kind'), and is 'table_unit' right?", mistakes)
             return
          end if
       end do
-   end subroutine check_contour
+   end subroutine check_form
 
-   !> Rows of a contour from the last on the base circle before the nose to the first behind it.
-   subroutine cut_contour(settings, group, table, mechanism, polar, height, first, last)
+   !> What a lift table gives, in SI over the angle from the nose, with its smoothing: lift of the valve or of the roller, or height
+   !> of a contour over the base circle. Rows of zero before and after the event are left out but for one; of a contour, rows
+   !> beyond those on the base circle next to the nose.
+   subroutine take_given(settings, group, table, given, before)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Group that names the table
       character(len=*), intent(in) :: group
       !> The table
       type(table_t), intent(in) :: table
-      !> Dimensions
-      type(mechanism_t), intent(in) :: mechanism
-      !> Polar angle from the nose [rad]
-      real(wp), allocatable, intent(out) :: polar(:)
-      !> Height over the base circle, zero at both ends [m]
-      real(wp), allocatable, intent(out) :: height(:)
-      !> First and last row
-      integer, intent(out) :: first, last
+      !> The values as a lift's table
+      type(lift_t), intent(inout) :: given
+      !> Rows left out before it
+      integer, intent(out) :: before
 
       type(unit_t) :: unit
+      type(mechanism_t) :: mechanism
       logical :: is_known
       real(wp) :: nose ! [rad]
-      integer :: top
+      real(wp), allocatable :: lift(:) ! [m]
+      integer :: top, first, last
 
+      given%law = "table"
+      call take(settings, group, "smoothing_um", given%smoothing)
       nose = pi
       call take(settings, group, "table_nose_angle_deg", nose)
       call find_unit(get_word(settings, group, "table_unit"), unit, is_known)
-      height = to_si(unit, table%y) - mechanism%base_radius
-      top = maxloc(height, dim=1)
-      first = max(1, findloc(height(:top) <= zero_lift*height(top), .true., dim=1, back=.true.))
-      last = min(size(height), top - 1 + findloc(height(top:) <= zero_lift*height(top), .true., dim=1))
-      if (last < top) last = size(height)
-      polar = table%x(first:last)*degree - nose
-      height = height(first:last)
-      height([1, size(height)]) = 0.0_wp
-   end subroutine cut_contour
+      lift = to_si(unit, table%y)
+      if (get_word(settings, group, "table_kind") == table_kind_names(kind_contour)) then
+         call take_mechanism(settings, mechanism)
+         lift = lift - mechanism%base_radius
+         top = maxloc(lift, dim=1)
+         first = max(1, findloc(lift(:top) <= zero_lift*lift(top), .true., dim=1, back=.true.))
+         last = min(size(lift), top - 1 + findloc(lift(top:) <= zero_lift*lift(top), .true., dim=1))
+         if (last < top) last = size(lift)
+         lift([first, last]) = 0.0_wp
+      else
+         first = max(1, findloc(table%y > 0.0_wp, .true., dim=1) - 1)
+         last = min(size(table%y), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)
+         where (lift < 0.0_wp .and. lift >= -zero_lift*maxval(lift)) lift = 0.0_wp
+      end if
+      before = first - 1
+      given%table_angle = table%x(first:last)*degree - nose
+      given%table_lift = lift(first:last)
+   end subroutine take_given
 
    !> Is a table one turn of the cylinder pressure?
    subroutine check_pressure(table, mistakes)
@@ -389,47 +418,34 @@ contains
          & number_text(table%x(row))//"  "//number_text(table%y(row)))
    end subroutine row_mistake
 
-   !> Lift over the angle from full lift; rows of zero lift before and after the event are left out but for one.
-   subroutine get_lift_table(settings, group, table, angle, lift)
+   !> Lift over the angle from full lift, with its smoothing. Where the table is of something else than the valve's lift, that is
+   !> smoothed, and the lift made of it is not any more.
+   subroutine get_lift_table(settings, group, table, lift)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Group that names the table
       character(len=*), intent(in) :: group
       !> The table
       type(table_t), intent(in) :: table
-      !> Cam angle from full lift [rad]
-      real(wp), allocatable, intent(out) :: angle(:)
-      !> Lift of the valve [m]
-      real(wp), allocatable, intent(out) :: lift(:)
+      !> The lift by a table
+      type(lift_t), intent(inout) :: lift
 
-      type(unit_t) :: unit
-      logical :: is_known
       type(mechanism_t) :: mechanism
       type(error_t), allocatable :: error
-      !> Cam angle of the nose in the table [rad]; polar angle from it [rad], height over the base circle [m]
-      real(wp) :: nose
-      real(wp), allocatable :: polar(:), height(:)
-      integer :: first, last, kind
+      type(lift_t) :: given
+      real(wp), allocatable :: roller_lift(:) ! [m]
+      integer :: before, first, kind
 
+      call take_given(settings, group, table, lift, before)
       kind = findloc(table_kind_names, get_word(settings, group, "table_kind"), 1)
+      if (kind == kind_valve) return
+      given = lift
       call take_mechanism(settings, mechanism)
-      if (kind == kind_contour) then
-         ! the contour was checked: there is no error
-         call cut_contour(settings, group, table, mechanism, polar, height, first, last)
-         call follow_contour(mechanism, polar, height, angle, lift, error)
-         lift = valve_lift_of(mechanism, lift)
-         lift([1, size(lift)]) = 0.0_wp
-         return
-      end if
-      nose = pi
-      call take(settings, group, "table_nose_angle_deg", nose)
-      call find_unit(get_word(settings, group, "table_unit"), unit, is_known)
-      first = max(1, findloc(table%y > 0.0_wp, .true., dim=1) - 1)
-      last = min(size(table%y), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)
-      angle = table%x(first:last)*degree - nose
-      lift = to_si(unit, table%y(first:last))
-      where (lift < 0.0_wp .and. lift >= -zero_lift*maxval(lift)) lift = 0.0_wp
-      if (kind == kind_roller) lift = valve_lift_of(mechanism, lift)
+      ! the table was checked: there is no error
+      call follow_table(mechanism, kind, given, first, lift%table_angle, roller_lift, error)
+      lift%table_lift = valve_lift_of(mechanism, roller_lift)
+      lift%given_angle = given%table_angle
+      lift%given_lift = given%table_lift
    end subroutine get_lift_table
 
    !> Dimensions of the mechanism.
@@ -452,8 +468,7 @@ contains
       call take(settings, "roller", "radius_mm", mechanism%roller_radius)
    end subroutine take_mechanism
 
-   !> Pressure over one turn from half a turn before full lift, increasing; a last row that repeats the first is left
-   !> out.
+   !> Pressure over one turn from half a turn before full lift, increasing; a last row that repeats the first is left out.
    subroutine get_pressure_table(settings, table, angle, pressure)
       !> The settings
       type(settings_t), intent(in) :: settings

@@ -6,13 +6,15 @@ module camroller_case_facts
    use camroller_engine, only : write_speed
    use camroller_flexible_setup, only : seat_sink
    use camroller_error, only : error_t
+   use camroller_cam_angle, only : file_angle
    use camroller_case, only : case_t
    use camroller_journal_range, only : compare_width
    use camroller_kinematics, only : position_t
-   use camroller_lift, only : lift_t
+   use camroller_lift, only : event_ends, lift_t
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_oil_checks, only : compare_hths
    use camroller_model, only : model_t, evaluate_geometry
+   use camroller_minimum, only : minimum_t, narrow_minimum, start_minimum
    use camroller_number_text, only : number_text, fixed_text
    use camroller_result, only : find_quantity, get_summary, result_t, severest
    use camroller_run, only : build_models, run_case
@@ -28,27 +30,23 @@ module camroller_case_facts
    !> Digits of numbers
    integer, parameter :: digits = 3
 
+   !> What is looked for in a lobe where it is largest: curvature of the cam, curvature of its hollows [1/m]; pressure angle [rad];
+   !> second derivative of the lift, up and down [m/rad^2]
+   integer, parameter :: of_cam = 1, of_hollow = 2, of_pressure = 3, upwards = 4, downwards = 5, wanted = 5
+
    !> Shape of one lobe
    type :: shape_t
-      !> Smallest radius of curvature of the convex parts of the cam [m] and its cam angle, nose at 180 [deg]
-      real(wp) :: smallest_radius = huge(1.0_wp), radius_angle = 0.0_wp
-      !> Smallest radius of its hollow parts, zero where there are none [m]
-      real(wp) :: hollow_radius = 0.0_wp
-      !> Largest pressure angle [rad] and its cam angle [deg]
-      real(wp) :: pressure_angle = 0.0_wp, pressure_angle_angle = 0.0_wp
-      !> First and last cam angle with lift [deg]
-      real(wp) :: first = 360.0_wp, last = 0.0_wp
-      !> Largest slope of the lift on the ramps, opening and closing, and anywhere [m/rad]
-      real(wp) :: ramp_slopes(2) = 0.0_wp, largest_slope = 0.0_wp
-      !> Smallest and largest second derivative of the lift [m/rad^2]
-      real(wp) :: smallest_curvature = 0.0_wp, largest_curvature = 0.0_wp
+      !> The largest of what is looked for, and cam angles where it is, nose at 180 [deg]
+      real(wp) :: largest(wanted) = 0.0_wp, angle(wanted) = 0.0_wp
+      !> Largest slope of the lift on the ramps, opening and closing [m/rad]
+      real(wp) :: ramp_slopes(2) = 0.0_wp
       !> Largest lift [m]
       real(wp) :: largest_lift = 0.0_wp
    end type shape_t
 
 contains
 
-   !> Shape of the cam of a model, looked at a quarter of a degree apart.
+   !> Shape of the cam of a model, looked at a quarter of a degree apart, and beside the largest of what is looked for between them.
    subroutine get_shape(model, shape)
       !> The model
       type(model_t), intent(in) :: model
@@ -56,40 +54,84 @@ contains
       type(shape_t), intent(out) :: shape
 
       type(position_t) :: position
-      ! Cam angle from full lift [rad], and with the nose at 180 [deg]; curvature of the cam [1/m]; pressure angle [rad]
-      real(wp) :: angle, shown, curvature, pressure_angle
-      integer :: i, status
+      ! Three neighbouring cam angles from full lift, those about what is largest [rad]; what is looked for there [see there]
+      real(wp) :: angles(3), about(3, wanted), values(wanted, 3), summits(3, wanted)
+      integer :: i, j, n
 
-      do i = 0, nint(two_pi/step) - 1
-         angle = i*step - 0.5_wp*two_pi
-         shown = 180.0_wp + angle/degree
-         call evaluate_geometry(model, angle, position, status)
-         if (status /= 0) cycle
-         curvature = 1.0_wp/position%equivalent_radius - 1.0_wp/model%linkage%roller_radius
-         if (curvature > 1.0_wp/shape%smallest_radius) then
-            shape%smallest_radius = 1.0_wp/curvature
-            shape%radius_angle = shown
-         else if (curvature < 0.0_wp .and. (-1.0_wp/curvature < shape%hollow_radius .or. shape%hollow_radius <= 0.0_wp)) then
-            shape%hollow_radius = -1.0_wp/curvature
-         end if
-         pressure_angle = acos(min(1.0_wp, abs(position%normal_arm)/model%linkage%a))
-         if (pressure_angle > shape%pressure_angle) then
-            shape%pressure_angle = pressure_angle
-            shape%pressure_angle_angle = shown
-         end if
-         if (position%lift <= 0.0_wp) cycle
-         shape%first = min(shape%first, shown)
-         shape%last = max(shape%last, shown)
+      n = nint(two_pi/step)
+      values = 0.0_wp
+      summits = -huge(1.0_wp)
+      about = 0.0_wp
+      do i = -1, n
+         angles = (i + [-2, -1, 0])*step - 0.5_wp*two_pi
+         values(:, :2) = values(:, 2:)
+         call look(model, angles(3), position, values(:, 3))
+         do j = 1, wanted
+            if (i < 1) exit
+            if (values(j, 2) <= summits(2, j)) cycle
+            about(:, j) = angles
+            summits(:, j) = values(j, :)
+         end do
+         if (i < 0 .or. i == n .or. position%lift <= 0.0_wp) cycle
          shape%largest_lift = max(shape%largest_lift, position%lift)
-         shape%largest_slope = max(shape%largest_slope, abs(position%lift_slope))
-         shape%smallest_curvature = min(shape%smallest_curvature, position%lift_curvature)
-         shape%largest_curvature = max(shape%largest_curvature, position%lift_curvature)
          if (position%lift > ramp_height) cycle
-         associate (ramp => shape%ramp_slopes(merge(1, 2, angle < 0.0_wp)))
+         associate (ramp => shape%ramp_slopes(merge(1, 2, angles(3) < 0.0_wp)))
             ramp = max(ramp, abs(position%lift_slope))
          end associate
       end do
+      do j = 1, wanted
+         call narrow(model, j, about(:, j), summits(:, j), shape%largest(j), shape%angle(j))
+      end do
    end subroutine get_shape
+
+   !> What is looked for in a lobe, at one angle.
+   subroutine look(model, angle, position, values)
+      !> The model, whose geometry was checked
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The geometry there
+      type(position_t), intent(out) :: position
+      !> What is looked for [see there]
+      real(wp), intent(out) :: values(wanted)
+
+      integer :: status
+
+      call evaluate_geometry(model, angle, position, status)
+      values = 0.0_wp
+      if (status /= 0) return
+      values(of_cam) = 1.0_wp/position%equivalent_radius - 1.0_wp/model%linkage%roller_radius
+      values(of_hollow) = -values(of_cam)
+      values(of_pressure) = acos(min(1.0_wp, abs(position%normal_arm)/model%linkage%a))
+      values(upwards) = position%lift_curvature
+      values(downwards) = -values(upwards)
+   end subroutine look
+
+   !> Look for the largest value of one of these between the angles about the largest so far.
+   subroutine narrow(model, which, angles, values, largest, place)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Which one
+      integer, intent(in) :: which
+      !> Three cam angles from full lift [rad], and values there, the middle one largest [see there]
+      real(wp), intent(in) :: angles(3), values(3)
+      !> The largest value [see there], and its cam angle, nose at 180 [deg]
+      real(wp), intent(out) :: largest, place
+
+      ! Gain that no digit shows, over the value [-]
+      real(wp), parameter :: little = 1.0e-6_wp
+      type(minimum_t) :: search
+      type(position_t) :: position
+      real(wp) :: trial(wanted) ! [see there]
+
+      call start_minimum(search, angles, -values, little*abs(values(2)))
+      do while (search%is_wanted)
+         call look(model, search%trial, position, trial)
+         call narrow_minimum(search, -trial(which))
+      end do
+      largest = -search%value(2)
+      place = file_angle(search%point(2))
+   end subroutine narrow
 
    !> A case in words: what follows from the deck at once, and what one run of it says.
    subroutine describe_case(case, text, error)
@@ -206,10 +248,12 @@ contains
       call find_lift_noise(lift, noise)
       if (.not. noise%is_known) return
       text = text//"lift table: noise of about "//number_text(1.0e6_wp*noise%noise, 2)//" um, smoothing_um = "// &
-         & number_text(1.0e6_wp*lift%smoothing, 3)//"; second derivative "//number_text(1.0e3_wp*noise%given(1), digits)// &
-         & " to "//number_text(1.0e3_wp*noise%given(2), digits)//" mm/rad^2, with smoothing by the noise "// &
-         & number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "//number_text(1.0e3_wp*noise%smoothed(2), digits)// &
-         & " (residual "//number_text(1.0e6_wp*noise%residual, 2)//" um)"//new_line("a")
+         & number_text(1.0e6_wp*lift%smoothing, 3)//"; second derivative"// &
+         & trim(merge(" of its values", "              ", allocated(lift%given_lift)))//" "// &
+         & number_text(1.0e3_wp*noise%given(1), digits)//" to "//number_text(1.0e3_wp*noise%given(2), digits)// &
+         & " mm/rad^2, with smoothing by the noise "//number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "// &
+         & number_text(1.0e3_wp*noise%smoothed(2), digits)//" (residual "//number_text(1.0e6_wp*noise%residual, 2)//" um)"// &
+         & new_line("a")
    end subroutine describe_table
 
    !> One lobe.
@@ -223,21 +267,23 @@ contains
 
       character(len=*), parameter :: n = new_line("a")
       type(shape_t) :: shape
+      real(wp) :: ends(2) ! [deg]
 
       call get_shape(model, shape)
-      text = text//name//" event from "//fixed_text(shape%first, 1)//" to "//fixed_text(shape%last, 1)//" deg, lift "// &
+      ends = 180.0_wp + event_ends(model%lift_law)/degree
+      text = text//name//" event from "//fixed_text(ends(1), 1)//" to "//fixed_text(ends(2), 1)//" deg, lift "// &
          & number_text(1.0e3_wp*shape%largest_lift, 4)//" mm; smallest cam radius "// &
-         & number_text(1.0e3_wp*shape%smallest_radius, digits)//" mm at "//fixed_text(shape%radius_angle, 1)//" deg"
-      if (shape%hollow_radius > 0.0_wp) text = text//", hollow flanks of "//number_text(1.0e3_wp*shape%hollow_radius, digits)// &
-         & " mm"
-      text = text//"; largest pressure angle "//fixed_text(shape%pressure_angle/degree, 1)//" deg at "// &
-         & fixed_text(shape%pressure_angle_angle, 1)//" deg"//n//name//" ramps below "//number_text(1.0e3_wp*ramp_height)// &
+         & number_text(1.0e3_wp/shape%largest(of_cam), digits)//" mm at "//fixed_text(shape%angle(of_cam), 1)//" deg"
+      if (shape%largest(of_hollow) > 0.0_wp) text = text//", hollow flanks of "// &
+         & number_text(1.0e3_wp/shape%largest(of_hollow), digits)//" mm"
+      text = text//"; largest pressure angle "//fixed_text(shape%largest(of_pressure)/degree, 1)//" deg at "// &
+         & fixed_text(shape%angle(of_pressure), 1)//" deg"//n//name//" ramps below "//number_text(1.0e3_wp*ramp_height)// &
          & " mm of lift up to "//number_text(1.0e6_wp*degree*shape%ramp_slopes(1), digits)//" and "// &
          & number_text(1.0e6_wp*degree*shape%ramp_slopes(2), digits)//" um/deg, "// &
          & number_text(model%speed*shape%ramp_slopes(1), digits)//" and "// &
          & number_text(model%speed*shape%ramp_slopes(2), digits)//" m/s; acceleration "// &
-         & number_text(1.0e3_wp*shape%smallest_curvature, digits)//" to "// &
-         & number_text(1.0e3_wp*shape%largest_curvature, digits)//" mm/rad^2"//n
+         & number_text(-1.0e3_wp*shape%largest(downwards), digits)//" to "// &
+         & number_text(1.0e3_wp*shape%largest(upwards), digits)//" mm/rad^2"//n
    end subroutine describe_cam
 
    !> What one run says of a lobe.

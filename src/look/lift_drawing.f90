@@ -7,7 +7,7 @@ module camroller_lift_drawing
    use camroller_cam_angle, only : file_angle
    use camroller_case, only : case_t
    use camroller_error, only : error_t
-   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law, stop_angles
+   use camroller_lift, only : evaluate_lift, given_table, lift_law_t, lift_t, new_lift_law, stop_angles
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_number_text, only : fixed_text, number_text
    use camroller_output_kind, only : drawing_kind
@@ -79,10 +79,11 @@ contains
       type(curve_t), allocatable :: curves(:, :)
       integer :: order
 
-      call find_curves(lift, curves, error)
+      call find_curves(given_table(lift), curves, error)
       if (allocated(error)) return
       body = body//'<text x="'//fixed_text(left, 0)//'" y="'//fixed_text(depth + 24.0_wp, 0)//'" font-weight="bold">'// &
-         & escaped(title)//"</text>"//n
+         & escaped(title)//trim(merge(", values of its table over their own angle", repeat(" ", 42), &
+         & allocated(lift%given_lift)))//"</text>"//n
       call add_legend(curves(:, 0), depth + 46.0_wp, body)
       do order = 0, 3
          call add_panel(curves(:, order), trim(quantities(order)), depth + top + distance*order, body)

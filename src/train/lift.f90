@@ -11,12 +11,14 @@ module camroller_lift
    use camroller_number_text, only : integer_text
    use camroller_spline, only : spline_t, evaluate_spline
    use camroller_lift_segments, only : evaluate_segments, new_segments, segments_t
-   use camroller_lift_table, only : least_step, new_table_event
+   use camroller_lift_shapes, only : polydyne_shape, power_shape
+   use camroller_lift_table, only : fit_event, least_step, new_table_event
    implicit none
    private
 
    public :: lift_t, lift_law_t, lift_law_names
-   public :: new_lift_law, evaluate_lift, is_at_rest, is_tabulated, stop_angles, highest_lift, resolving_angles, largest_exponent
+   public :: new_lift_law, given_table, evaluate_lift, is_at_rest, is_tabulated, stop_angles, highest_lift, resolving_angles
+   public :: event_ends, largest_exponent
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
@@ -54,8 +56,12 @@ module camroller_lift
       real(wp), allocatable :: table_angle(:)
       !> Table: lift of the valve [m]
       real(wp), allocatable :: table_lift(:)
-      !> Root mean square distance allowed between a smoothed curve and the table [m]; zero interpolates
+      !> Root mean square distance allowed between a smoothed curve and the table, as it was given [m]; zero interpolates
       real(wp) :: smoothing = 0.0_wp
+      !> Table that was given, where the one above was made of its smoothed rows: cam or polar angle from the nose [rad]
+      real(wp), allocatable :: given_angle(:)
+      !> Its lift of the roller, or height of the cam over its base circle [m]
+      real(wp), allocatable :: given_lift(:)
    end type lift_t
 
    !> A lift law ready for evaluation; read only, so that any number of threads may share it
@@ -124,6 +130,20 @@ contains
       call wrap_stops(law%stops)
    end subroutine new_lift_law
 
+   !> The table of a lift as it was given: the lift of the valve, or what that was made of.
+   pure function given_table(lift) result(given)
+      !> A lift by a table
+      type(lift_t), intent(in) :: lift
+      !> The table for a lift, to be smoothed as given
+      type(lift_t) :: given
+
+      given = lift
+      if (.not. allocated(lift%given_lift)) return
+      given%table_angle = lift%given_angle
+      given%table_lift = lift%given_lift
+      deallocate (given%given_angle, given%given_lift)
+   end function given_table
+
    !> Lift and its first three derivatives at a cam angle; right-hand values where one jumps.
    pure subroutine evaluate_lift(law, angle, values)
       !> The law
@@ -180,6 +200,16 @@ contains
       lift = law%max_lift
    end function highest_lift
 
+   !> Where the event of a law starts and ends; a turn apart where it has no rest.
+   pure function event_ends(law) result(angles)
+      !> The law
+      type(lift_law_t), intent(in) :: law
+      !> Cam angles from full lift [rad]
+      real(wp) :: angles(2)
+
+      angles = [law%first, law%last]
+   end function event_ends
+
    !> How many even angles of a turn show the curvature of a lift: with rows of a table closer than a degree, whose noise is in it
    !> from row to row, four for each.
    pure function resolving_angles(law) result(angles)
@@ -229,56 +259,6 @@ contains
 
       angles = law%stops
    end function stop_angles
-
-   !> `(1 - y^2)^n`.
-   pure subroutine power_shape(n, y, f)
-      !> Exponent, at least 3
-      integer, intent(in) :: n
-      !> Distance from the nose, 0 to 1 [-]
-      real(wp), intent(in) :: y
-      !> Value and derivatives [-]
-      real(wp), intent(out) :: f(0:3)
-
-      !> 1 - y^2 and its power n - 3 [-]
-      real(wp) :: v, power
-      !> n [-]
-      real(wp) :: a
-
-      a = real(n, wp)
-      v = (1.0_wp - y)*(1.0_wp + y)
-      power = v**(n - 3)
-      f(0) = power*v**3
-      f(1) = -2.0_wp*a*y*power*v**2
-      f(2) = 2.0_wp*a*power*v*(2.0_wp*(a - 1.0_wp)*y**2 - v)
-      f(3) = 4.0_wp*a*(a - 1.0_wp)*y*power*(3.0_wp*v - 2.0_wp*(a - 2.0_wp)*y**2)
-   end subroutine power_shape
-
-   !> Sum of powers.
-   pure subroutine polydyne_shape(exponents, coefficients, y, f)
-      !> Exponents, the first one 0, the others at least 2
-      integer, intent(in) :: exponents(:)
-      !> Coefficients [-]
-      real(wp), intent(in) :: coefficients(:)
-      !> Distance from the nose, 0 to 1 [-]
-      real(wp), intent(in) :: y
-      !> Value and derivatives [-]
-      real(wp), intent(out) :: f(0:3)
-
-      !> Exponent, and the term over its power of y up to the third derivative [-]
-      real(wp) :: e, c
-      integer :: i
-
-      f = 0.0_wp
-      f(0) = coefficients(1)
-      do i = 2, size(exponents)
-         e = real(exponents(i), wp)
-         c = coefficients(i)
-         f(0) = f(0) + c*y**exponents(i)
-         f(1) = f(1) + c*e*y**(exponents(i) - 1)
-         f(2) = f(2) + c*e*(e - 1.0_wp)*y**(exponents(i) - 2)
-         if (exponents(i) > 2) f(3) = f(3) + c*e*(e - 1.0_wp)*(e - 2.0_wp)*y**(exponents(i) - 3)
-      end do
-   end subroutine polydyne_shape
 
    !> Rise from 0 to 1 over u from 0 to 1, with no slope and no curvature at either end.
    pure subroutine rise_shape(law, u, f)
@@ -465,8 +445,12 @@ contains
          call raise(error, kind_deck, "lift law 'table' needs a table")
          return
       end if
-      call new_table_event(law%table, lift%table_angle, lift%table_lift, lift%smoothing, &
-         law%first, law%last, is_periodic, error)
+      if (allocated(lift%given_lift)) then
+         call fit_event(law%table, lift%table_angle, lift%table_lift, 0.0_wp, law%first, law%last, is_periodic, error)
+      else
+         call new_table_event(law%table, lift%table_angle, lift%table_lift, lift%smoothing, &
+            law%first, law%last, is_periodic, error)
+      end if
       if (allocated(error)) return
       law%max_lift = maxval(lift%table_lift)
       law%row_step = least_step(lift%table_angle, law%first, law%last)

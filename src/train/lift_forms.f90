@@ -7,11 +7,12 @@ module camroller_lift_forms
    use camroller_error, only : error_t
    use camroller_kinds, only : wp
    use camroller_kinematics, only : mechanism_t, rotation_names
-   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law
+   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law, stop_angles
+   use camroller_lift_table, only : find_event
    implicit none
    private
 
-   public :: table_kind_names, kind_valve, kind_roller, kind_contour, valve_lift_of, closes_triangle, follow_contour
+   public :: table_kind_names, kind_valve, kind_roller, kind_contour, valve_lift_of, closes_triangle, follow_table
 
    !> What a lift table holds: lift of the valve, or of the roller's centre away from the cam's, or radii of the cam
    character(len=*), parameter :: table_kind_names(*) = [character(len=11) :: "valve_lift", "roller_lift", "cam_contour"]
@@ -67,38 +68,52 @@ contains
       end associate
    end function valve_lift_of
 
-   !> Cam angle and lift of the roller's centre while it touches each point of a cam's contour.
-   subroutine follow_contour(mechanism, polar, height, cam_angle, roller_lift, error)
+   !> Cam angle and lift of the roller at the rows of a table's event: lifts of the roller, or each point of a cam's contour at the
+   !> roller. What is smoothed is the table, before anything follows from it.
+   !>
+   !> Errors (deck): what `new_lift_law` refuses.
+   subroutine follow_table(mechanism, kind, given, first, cam_angle, roller_lift, error)
       !> Dimensions and sense of rotation
       type(mechanism_t), intent(in) :: mechanism
-      !> Polar angle on the cam from its nose, increasing in the order in which points pass the roller [rad]
-      real(wp), intent(in) :: polar(:)
-      !> Radius of the cam less that of the base circle, zero at both ends [m]
-      real(wp), intent(in) :: height(:)
+      !> `kind_roller` or `kind_contour`
+      integer, intent(in) :: kind
+      !> The table with its smoothing: lift of the roller over the cam angle; or radius of the cam less that of the base circle over
+      !> the polar angle on the cam, increasing in the order in which points pass the roller; both angles from the nose
+      type(lift_t), intent(in) :: given
+      !> Its first row that belongs to the event
+      integer, intent(out) :: first
       !> Cam angle from that where the roller touches the nose [rad]
       real(wp), allocatable, intent(out) :: cam_angle(:)
       !> Distance of the roller's centre from the cam's, less that on the base circle [m]
       real(wp), allocatable, intent(out) :: roller_lift(:)
-      !> Deck error of the contour
+      !> Deck error of the table
       type(error_t), allocatable, intent(out) :: error
 
       type(lift_law_t) :: law
-      ! Height and its derivatives [m, m/rad, ...]
+      ! Value of the table and its derivatives [m, m/rad, ...]
       real(wp) :: values(0:3)
-      real(wp) :: nose ! [rad]
-      integer :: i
+      ! Angle of a row, cam angle of the nose [rad]
+      real(wp) :: place, nose
+      integer :: i, last
 
-      call new_lift_law(law, lift_t(law="table", table_angle=polar, table_lift=height), error)
+      first = 1
+      call new_lift_law(law, given, error)
       if (allocated(error)) return
-      allocate (cam_angle(size(polar)), roller_lift(size(polar)))
-      do i = 1, size(polar)
-         call evaluate_lift(law, polar(i), values)
-         call touch(mechanism, polar(i), values(:1), cam_angle(i), roller_lift(i))
+      call find_event(given%table_angle, given%table_lift, given%smoothing, first, last)
+      cam_angle = given%table_angle(first:last)
+      allocate (roller_lift(size(cam_angle)))
+      do i = 1, size(cam_angle)
+         ! the last row of a full turn is the first one of the next
+         place = given%table_angle(merge(first, first + i - 1, i == size(cam_angle) .and. size(stop_angles(law)) == 0))
+         call evaluate_lift(law, place, values)
+         roller_lift(i) = values(0)
+         if (kind == kind_contour) call touch(mechanism, given%table_angle(first + i - 1), values(:1), cam_angle(i), roller_lift(i))
       end do
+      if (kind /= kind_contour) return
       call evaluate_lift(law, 0.0_wp, values)
       call touch(mechanism, 0.0_wp, values(:1), nose, values(3))
       cam_angle = cam_angle - nose
-   end subroutine follow_contour
+   end subroutine follow_table
 
    !> The roller at one point of the contour: its centre is a roller's radius away along the normal.
    pure subroutine touch(mechanism, polar, height, cam_angle, roller_lift)

@@ -5,7 +5,7 @@
 module camroller_lift_noise
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t
-   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law
+   use camroller_lift, only : evaluate_lift, given_table, lift_law_t, lift_t, new_lift_law
    use camroller_lift_table, only : estimate_noise, has_even_rows, median, median_deviate
    implicit none
    private
@@ -18,7 +18,7 @@ module camroller_lift_noise
       logical :: is_known = .false.
       !> Its root mean square [m]
       real(wp) :: noise = 0.0_wp
-      !> Smallest and largest second derivative of the lift as the case has it, and with smoothing by the noise [m/rad^2]
+      !> Smallest and largest second derivative of the table as the case has it, and with smoothing by the noise [m/rad^2]
       real(wp) :: given(2) = 0.0_wp, smoothed(2) = 0.0_wp
       !> Root mean square distance of that smoothed curve from the table [m]
       real(wp) :: residual = 0.0_wp
@@ -97,7 +97,7 @@ contains
       left = sqrt(max(0.0_wp, sum(about**2) - explained))
    end function left_by_bend
 
-   !> Find the noise of a lift's table.
+   !> Find the noise of a lift's table: of the values that were given, whatever they are of.
    subroutine find_lift_noise(lift, noise)
       !> The lift
       type(lift_t), intent(in) :: lift
@@ -105,7 +105,7 @@ contains
       type(lift_noise_t), intent(out) :: noise
 
       type(lift_law_t) :: law
-      type(lift_t) :: other
+      type(lift_t) :: given
       type(error_t), allocatable :: error
       ! Lift and its derivatives [m, m/rad, ...]
       real(wp) :: values(0:3)
@@ -113,20 +113,20 @@ contains
       integer :: i, n
 
       if (.not. allocated(lift%table_lift)) return
-      n = size(lift%table_lift)
-      call estimate_noise(lift%table_angle, lift%table_lift, noise%noise, is_known)
+      given = given_table(lift)
+      n = size(given%table_lift)
+      call estimate_noise(given%table_angle, given%table_lift, noise%noise, is_known)
       if (.not. is_known) return
-      call new_lift_law(law, lift, error)
+      call new_lift_law(law, given, error)
       if (allocated(error)) return
-      call find_range(law, lift, noise%given)
-      other = lift
-      other%smoothing = noise%noise
-      call new_lift_law(law, other, error)
+      call find_range(law, given, noise%given)
+      given%smoothing = noise%noise
+      call new_lift_law(law, given, error)
       if (allocated(error)) return
-      call find_range(law, lift, noise%smoothed)
+      call find_range(law, given, noise%smoothed)
       do i = 1, n
-         call evaluate_lift(law, lift%table_angle(i), values)
-         noise%residual = noise%residual + (values(0) - lift%table_lift(i))**2/n
+         call evaluate_lift(law, given%table_angle(i), values)
+         noise%residual = noise%residual + (values(0) - given%table_lift(i))**2/n
       end do
       noise%residual = sqrt(noise%residual)
       noise%is_known = .true.

@@ -14,7 +14,8 @@ module camroller_lift_table
    implicit none
    private
 
-   public :: new_table_event, find_event, estimate_noise, has_even_rows, least_step, median, median_deviate, noise_reach
+   public :: new_table_event, fit_event, find_event, estimate_noise, has_even_rows, least_step, median, median_deviate
+   public :: noise_reach, no_noise
 
    !> Fewest rows of an event
    integer, parameter :: min_rows = 5
@@ -32,7 +33,7 @@ module camroller_lift_table
    real(wp), parameter :: no_noise = 0.01_wp
    !> Fewest rows of which the noise is known
    integer, parameter :: fewest_noisy = 24
-   !> Largest step over the smallest there [-]
+   !> Largest step over the smallest there; or how far at most a step is from the mean of those beside it, over itself, and one [-]
    real(wp), parameter :: most_uneven = 1.01_wp
    !> Order of the differences
    integer, parameter :: order = 6
@@ -77,21 +78,55 @@ contains
       end if
       call check_gaps(angle(low:high), error)
       if (allocated(error)) return
-      first = angle(low)
-      last = angle(high)
-      is_periodic = last - first > two_pi - turn_tolerance
-      if (is_periodic) then
-         call new_periodic_spline(table, angle(low:high), lift(low:high), smoothing, error)
-      else
-         call check_ends(lift, low, high, smoothing, error)
-         if (allocated(error)) return
-         call new_clamped_spline(table, angle(low:high), [0.0_wp, lift(low + 1:high - 1), 0.0_wp], &
-            [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], smoothing, error)
-      end if
+      if (.not. fills_turn(angle(low), angle(high))) call check_ends(lift, low, high, smoothing, error)
+      if (allocated(error)) return
+      call fit_event(table, angle(low:high), lift(low:high), smoothing, first, last, is_periodic, error)
+   end subroutine new_table_event
+
+   !> Make the spline of an event whose rows are all of the table, from zero to zero.
+   !>
+   !> Errors (deck): what `new_clamped_spline` and `new_periodic_spline` refuse.
+   subroutine fit_event(table, angle, lift, smoothing, first, last, is_periodic, error)
+      !> Lift over angle
+      type(spline_t), intent(out) :: table
+      !> Cam angle from full lift, increasing [rad]
+      real(wp), intent(in) :: angle(:)
+      !> Lift, its ends taken for zero unless it fills the turn [m]
+      real(wp), intent(in) :: lift(:)
+      !> Root mean square distance to the table [m]; zero interpolates
+      real(wp), intent(in) :: smoothing
+      !> Start and end of the event [rad]
+      real(wp), intent(out) :: first, last
+      !> Whether the event fills the turn
+      logical, intent(out) :: is_periodic
+      !> What is wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      associate (n => size(angle))
+         first = angle(1)
+         last = angle(n)
+         is_periodic = fills_turn(first, last)
+         if (is_periodic) then
+            call new_periodic_spline(table, angle, lift, smoothing, error)
+         else
+            call new_clamped_spline(table, angle, [0.0_wp, lift(2:n - 1), 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], &
+               & smoothing, error)
+         end if
+      end associate
       if (.not. allocated(error)) return
       error%kind = kind_deck
       call add_context(error, "lift table")
-   end subroutine new_table_event
+   end subroutine fit_event
+
+   !> Does an event last a full turn?
+   elemental function fills_turn(first, last) result(verdict)
+      !> Its start and end [rad]
+      real(wp), intent(in) :: first, last
+      !> Does it?
+      logical :: verdict
+
+      verdict = last - first > two_pi - turn_tolerance
+   end function fills_turn
 
    !> Smallest step between two rows of an event. A few rows far closer than all others do not count: a quarter of the mean step at
    !> least.
@@ -152,7 +187,7 @@ contains
       do i = 2, size(step) - 1
          if (step(i) <= gap_ratio*max(step(i - 1), step(i + 1))) cycle
          call raise(error, kind_deck, "lift table has a gap from "//fixed_text(angle(i)/degree, 3)//" to "// &
-            & fixed_text(angle(i + 1)/degree, 3)//" deg")
+            & fixed_text(angle(i + 1)/degree, 3)//" deg from the nose")
          return
       end do
    end subroutine check_gaps
@@ -248,7 +283,8 @@ contains
       noise = median(abs(differences))/(median_deviate*sqrt(squares))
    end subroutine estimate_noise
 
-   !> Are there enough rows, at even steps, for differences to tell noise from lift?
+   !> Are there enough rows, at even steps, for differences to tell noise from lift? Steps may change slowly, as those of the polar
+   !> angles of a contour at even cam angles do: the lift is a smooth function of the row's number then too.
    pure function has_even_rows(angle) result(verdict)
       !> Cam angle, increasing [any]
       real(wp), intent(in) :: angle(:)
@@ -258,7 +294,8 @@ contains
       verdict = size(angle) >= fewest_noisy
       if (.not. verdict) return
       associate (steps => angle(2:) - angle(:size(angle) - 1))
-         verdict = maxval(steps) <= most_uneven*minval(steps)
+         verdict = maxval(steps) <= most_uneven*minval(steps) .or. all(abs(steps(2:size(steps) - 1) - 0.5_wp*(steps(3:) + &
+            & steps(:size(steps) - 2))) <= (most_uneven - 1.0_wp)*steps(2:size(steps) - 1))
       end associate
    end function has_even_rows
 

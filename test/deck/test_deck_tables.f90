@@ -32,6 +32,7 @@ contains
          new_unittest("a lift table arrives in SI, from full lift", lift_in_si), &
          new_unittest("rows of zero lift outside of the event are left out", dwell_is_left_out), &
          new_unittest("noise on the base circle is taken with smoothing, rounding below zero always", noise_is_taken), &
+         new_unittest("an event across the end of the table is told as such", event_across_the_end), &
          new_unittest("a pressure table is turned to begin half a turn before full lift", pressure_is_turned), &
          new_unittest("a pressure table covers one turn and ends as it begins", pressure_mistakes), &
          new_unittest("mistakes in a table are told with file and line", table_mistakes), &
@@ -87,6 +88,22 @@ contains
       if (allocated(error)) return
       call check(error, all(case%lift%table_lift >= 0.0_wp), "lift below zero")
    end subroutine noise_is_taken
+
+   subroutine event_across_the_end(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: rows
+      character(len=16) :: row
+      integer :: i
+
+      rows = ""
+      do i = 0, 360, 10
+         write (row, '(i0, 1x, f6.3)') i, 5.0_wp*max(0.0_wp, cos(2.0_wp*i*degree))*merge(0.0_wp, 1.0_wp, abs(i - 180) < 60)
+         rows = rows//trim(row)//n
+      end do
+      call expect(error, rows, ":1: the event runs across the end of the table: move the rows from 180 degrees on before the "// &
+         & "others, at 360 degrees less, but for the last one, which is the first one again")
+   end subroutine event_across_the_end
 
    subroutine pressure_is_turned(error)
       type(error_type), allocatable, intent(out) :: error

@@ -2,6 +2,7 @@
 
 import json
 import re
+import subprocess
 import xml.etree.ElementTree
 
 import h5py
@@ -112,6 +113,27 @@ def test_the_law_of_a_deck_that_names_none_is_for_usual_bearings(camroller, tmp_
     deck.write_text((ROOT / "decks/thesis.nml").read_text().replace("   law = 'long_full_sommerfeld'\n", ""))
     text = done(camroller, "check", deck, "--no-sweep").stdout
     assert "width over diameter 0.87, law 'finite'\n" in text and "wider than 2 diameters" not in text
+
+
+@pytest.mark.parametrize(("values", "words"), [
+    ([], "event from 110.0 to 250.0 deg"),
+    (["lift.max_lift_mm=5", "lift.opening_half_angle_deg=180"], "event from 0.0 to 360.0 deg"),
+])
+def test_the_event_is_told_from_its_start_to_its_end(camroller, values, words):
+    assert f"lobe: {words}" in done(camroller, "check", "decks/thesis.nml", "--no-sweep", *(w for v in values for w in ("--set", v))).stdout
+
+
+def test_the_hollow_is_that_in_which_the_grinding_wheel_must_fit(camroller):
+    """Where the acceleration has a corner between two quarters of a degree."""
+    values = ["lift.law=segments", "lift.max_lift_mm=8.5", "lift.segment_angles_deg=0,5,20,25.1,29.9,75,110,125,135,142",
+              "lift.segment_accelerations=0,1,1,20,20,-10,-10,18,1,0", "mechanism.base_radius_mm=22"]
+    words = ["check", "decks/thesis.nml", "--no-sweep", *(w for v in values for w in ("--set", v))]
+    told = float(re.search(r"hollow flanks of ([\d.]+) mm", done(camroller, *words).stdout)[1])
+    # three digits are printed
+    done(camroller, *words, "--set", f"mechanism.grinding_wheel_radius_mm={0.996 * told}")
+    result = subprocess.run([camroller, *words, "--set", f"mechanism.grinding_wheel_radius_mm={1.004 * told}"], capture_output=True,
+                            text=True, cwd=ROOT, check=False)
+    assert "hollow flank: the cam's radius of curvature is" in result.stderr
 
 
 def test_smallest_cam_radius_is_that_of_the_series(camroller, tmp_path):

@@ -58,6 +58,31 @@ def test_an_impossible_roller_lift_is_refused(camroller, tmp_path):
     assert result.returncode == 3 and "the roller cannot be so far from the cam" in result.stderr
 
 
+def noise_of(rows):
+    """Deviates of a mean square of one, always the same ones."""
+    return np.random.default_rng(11).normal(size=rows)
+
+
+def test_smoothing_counts_in_the_lift_that_the_table_holds(camroller, tmp_path):
+    angle, lift = np.loadtxt(ROOT / "decks/tables/polynomial_lift.txt").T
+    inside = lift > 1e-3
+    given = np.where(inside, roller_lift(lift) + 1e-3 * noise_of(lift.size), 0)
+    np.savetxt(tmp_path / "roller.txt", np.column_stack([angle, given]), fmt="%.9f")
+    values = [f"lift.table={tmp_path / 'roller.txt'}", "lift.table_kind=roller_lift", "lift.smoothing_um=1"]
+    after = summary(camroller, tmp_path, *values)
+    with h5py.File(tmp_path / "a.h5") as file:
+        places, first = np.unique(file["series/cam_angle"][:], return_index=True)
+        curve = make_interp_spline(places, file["series/valve_lift"][0][first] * 1e3, k=5)(angle)
+    event = slice(np.argmax(inside) - 1, inside.size - np.argmax(inside[::-1]) + 1)
+    assert np.sqrt(np.mean((roller_lift(curve) - given)[event] ** 2)) == pytest.approx(1e-3, rel=0.02)
+    exact = summary(camroller, tmp_path)
+    assert after["max_hertz_pressure"] == pytest.approx(exact["max_hertz_pressure"], rel=0.02)
+    told = subprocess.run([camroller, "check", "decks/tabulated_lift.nml", "--no-sweep", *(w for v in values for w in ("--set", v))],
+                          capture_output=True, text=True, cwd=ROOT, check=True).stdout
+    noise = float(re.search(r"lift table: noise of about ([\d.]+) um, smoothing_um = 1; second derivative of its values", told)[1])
+    assert noise == pytest.approx(1, rel=0.3)
+
+
 def contour(sense):
     """Radii [mm] over the polar angle [deg] of the cam whose valve lift is the table's, as the envelope of the roller.
 
@@ -96,7 +121,38 @@ def test_the_contour_of_the_cam_gives_the_lift_that_it_was_made_of(camroller, tm
         assert second[name] == pytest.approx(first[name], rel=share), name
 
 
+def noisy_contour(camroller, folder, is_even, size):
+    """A contour with noise of a size [um] on the whole turn: at even polar angles, or at those of even cam angles."""
+    if is_even:
+        polar, radius = contour(1)
+        rest = np.arange(0.5, 60, 0.5)
+        polar = np.concatenate([polar[0] - rest[::-1], polar, polar[-1] + rest])
+        radius = np.pad(radius, rest.size, constant_values=BASE)
+    else:
+        table = cam_table(camroller, folder, "decks/tabulated_lift.nml")
+        polar, radius = table["polar_angle [deg]"], table["cam_radius [mm]"]
+    np.savetxt(folder / "contour.txt", np.column_stack([polar, radius + 1e-3 * size * noise_of(radius.size)]), fmt="%.9f")
+    return [f"lift.table={folder / 'contour.txt'}", "lift.table_kind=cam_contour"]
+
+
+@pytest.mark.parametrize("is_even", [True, False])
+def test_noise_of_a_contour_is_told_and_smoothed(camroller, tmp_path, is_even):
+    exact = summary(camroller, tmp_path)["max_hertz_pressure"]
+    values = noisy_contour(camroller, tmp_path, is_even, 0.1)
+    words = [camroller, "check", "decks/tabulated_lift.nml", "--no-sweep", *(w for v in values for w in ("--set", v))]
+    told = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, check=True)
+    noise = re.search(r"contour.txt: the table has noise of about ([\d.]+) um, which makes its second derivative", told.stderr)
+    assert float(noise[1]) == pytest.approx(0.1, rel=0.3)
+    assert f"lift table: noise of about {noise[1]} um, smoothing_um = 0; second derivative of its values" in told.stdout
+    for size in (0.1, 1):
+        values = noisy_contour(camroller, tmp_path, is_even, size)
+        after = summary(camroller, tmp_path, *values, f"lift.smoothing_um={size}")
+        assert after["max_hertz_pressure"] == pytest.approx(exact, rel=0.01), size
+
+
 @pytest.mark.parametrize("change, words", [
+    (lambda radius: radius + 2e-3 * (radius > BASE + 1e-4) * abs(noise_of(radius.size)), "or noise, which 'smoothing_um' of &lift takes out"),
+    (lambda radius: radius + 2e-3 * noise_of(radius.size), "set them to its radius, or give 'smoothing_um' of &lift"),
     (lambda radius: radius - 17, "no radius is above the base circle's"),
     (lambda radius: radius + 0.5, "the contour must start on the base circle"),
     (lambda radius: 18 + (radius - 18) * (1 + 0.3 * (np.arange(radius.size) % 40 == 20)), "the roller does not touch the contour here"),
