@@ -308,8 +308,9 @@ contains
       !> What changes
       type(response_t), intent(inout) :: response
 
-      ! Changes of torque [N m], film [m] and sliding speed [m/s]; films [m]; largest film that may become the smallest [m]
-      real(wp) :: torques(points), films(points), slips(points), film(points), reach
+      ! Changes of torque [N m], film [m] and sliding speed [m/s]; films [m], loads [N]; largest film that may become the smallest
+      ! [m]
+      real(wp) :: torques(points), films(points), slips(points), film(points), load(points), reach
 
       film = survey%states%contact%film_min
       films = abs(second%contact%film_min - film) + second%contact%film_min*min(film_slopes(model, second, abs(correction)), 1.0_wp)
@@ -319,9 +320,8 @@ contains
       response%sliding = mean_over(survey%grid, slips) + sampling_error(survey%grid, slips)
       reach = near_smallest*max(minval(film(1::2)), minval(film(2::2)))
       response%film = maxval(films, mask=film - films <= reach)/minval(film)
-      associate (load => survey%states%contact%load)
-         response%load = mean_over(survey%grid, abs(second%contact%load - load))/mean_over(survey%grid, load)
-      end associate
+      load = survey%states%contact%load
+      response%load = mean_over(survey%grid, abs(second%contact%load - load))/mean_over(survey%grid, load)
       response%changed = survey
       response%changed%states = second
       response%is_known = .true.

@@ -341,7 +341,8 @@ SMOOTH = re.sub(r"&asperity.*?^/$", "", (ROOT / "decks/numerical_film.nml").read
     ((30, 95), "the film between cam and roller is below 0.1 of the roughness for 100 % of the cycle"),
     ((900, 60, "traction.limiting_coefficient=0.003"), "traction.limit = 'mean' holds the shear of the film to 0.003 of the load"),
     ((300, 60, "film.range_policy=stop"), "film.range_policy=stop has no effect on solved contacts"),
-    ((300, 60, "film.law=moes"), "has no effect in a run: it is used without &ehl, or with ehl.profiles = .true., or by 'camroller ehl'")])
+    ((300, 60, "film.law=moes"), "has no effect in a run: it is used without &ehl, or with ehl.profiles = .true., or with effects.select = 'needed', "
+     "or by 'camroller ehl'")])
 @pytest.mark.once
 def test_solved_contacts_have_the_remarks_on_films_of_a_run(camroller, tmp_path, options, words):
     speed, temperature, *others = options

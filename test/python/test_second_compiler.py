@@ -41,7 +41,7 @@ def test_the_runner_has_the_suites_that_compile(tmp_path, monkeypatch):
     unit, kept, out = runner({"test_film": None, "test_error": None})
     text = unit.path.read_text(encoding="utf-8")
     assert kept == ["error", "film"] and "deck" in out
-    assert unit.uses == {"testdrive", "test_film", "test_error"}
+    assert unit.uses == {"testdrive", "camroller_blas_threads", "test_film", "test_error"}
     assert text.count("new_testsuite(") == 2 and 'new_testsuite("film", collect_film) &\n         ]' in text
 
 
