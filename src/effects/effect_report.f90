@@ -1,10 +1,11 @@
-!> What a choice of effects adds to a result: its scalars.
+!> What a choice of effects adds to a result: its scalars, and why a film has a law that the deck does not name.
 !>
 !> In: a result, the choice. Out: the result with scalars of source `effects`.
 module camroller_effect_report
    use camroller_kinds, only : wp
    use camroller_case, only : quantity_names
-   use camroller_effect_list, only : choice_t, effect_names
+   use camroller_effect_list, only : choice_t, effect_ehl, effect_film, effect_names
+   use camroller_remarks, only : outside_range
    use camroller_result, only : result_t, quantity_t
    implicit none
    private
@@ -43,6 +44,7 @@ contains
       do i = 1, size(choice%decisions)
          name = trim(effect_names(choice%decisions(i)%effect))
          associate (decision => choice%decisions(i))
+            if (any(decision%effect == [effect_ehl, effect_film]) .and. .not. decision%is_used) call excuse_law(result, name)
             call append(list, name//"_used", "1", "1 where the effect took part, 0 where it was left out", choice_source, &
                & merge(1.0_wp, 0.0_wp, decision%is_used))
             do k = 1, size(quantity_names)
@@ -59,6 +61,22 @@ contains
       call end_list(list, result)
       result%choice = choice
    end subroutine add_choice
+
+   !> Say where a law is outside its range that it stands in the place of the deck's.
+   subroutine excuse_law(result, name)
+      !> The result
+      type(result_t), intent(inout) :: result
+      !> Name of the effect that was left out
+      character(len=*), intent(in) :: name
+
+      integer :: i
+
+      if (.not. allocated(result%remarks)) return
+      do i = 1, size(result%remarks)
+         if (result%remarks(i)%kind == outside_range) result%remarks(i)%text = result%remarks(i)%text// &
+            & "; effects.select = 'needed' has put this law in the place of the deck's, since "//name//" matters little here"
+      end do
+   end subroutine excuse_law
 
    !> An empty list.
    subroutine start_list(list, room)

@@ -170,3 +170,5 @@ def test_a_film_law_stays_where_its_range_decides(camroller, folder):
     assert run(camroller, "run", "film.nml", *settings, "-o", "film.h5", folder=folder).returncode == 0
     failed = run(camroller, "run", "film.nml", *settings, "--set", "film.law=dowson_higginson", "-o", "x.h5", folder=folder)
     assert failed.returncode != 0 and "range_policy = 'stop'" in failed.stderr
+    warned = run(camroller, "run", "film.nml", *settings, "--set", "film.range_policy=warn", "-o", "y.h5", folder=folder)
+    assert "outside its published range" in warned.stderr and "has put this law in the place of the deck's, since film_law" in warned.stderr
