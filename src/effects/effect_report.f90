@@ -71,7 +71,6 @@ contains
 
       integer :: i
 
-      if (.not. allocated(result%remarks)) return
       do i = 1, size(result%remarks)
          if (result%remarks(i)%kind == outside_range) result%remarks(i)%text = result%remarks(i)%text// &
             & "; effects.select = 'needed' has put this law in the place of the deck's, since "//name//" matters little here"
