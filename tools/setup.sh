@@ -34,7 +34,7 @@ has_hdf5() {
 
 # What programs are linked with, of which pkg-config hears in build/pkgconfig first: where HDF5 is there with and without MPI, the serial
 # one; where its static libraries are there, these: the shared one brings 40 others into a process, for files on web servers, which takes
-# three times as long as all else of its start. The linker takes a text of that form in the place of a library.
+# longer than all else of its start. The linker takes a text of that form in the place of a library.
 hdf5_to_link() {
     local package=hdf5 names=(hdf5hl_fortran hdf5_fortran hdf5_hl hdf5) target=build/pkgconfig
     local folder file name static=()
