@@ -17,6 +17,7 @@ module camroller_deck_table_remarks
    use camroller_text_lines, only : add_line, line_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_settings, only : get_word, has_group, is_known, settings_t, take
+   use camroller_spline, only : evaluate_spline, new_periodic_spline, spline_t
    use camroller_table_file, only : table_t
    use camroller_units, only : find_unit, pressure_unit_names, to_si, unit_t
    implicit none
@@ -212,7 +213,9 @@ contains
       before = size(remarks)
       call remark_firing(settings, table, remarks)
       if (size(remarks) == before .and. is_usual_pressure(pressure)) call remark_open_valve(settings, tables, remarks)
+      before = size(remarks)
       call remark_seam(table, remarks)
+      if (size(remarks) == before) call remark_swing(table, remarks)
       if (is_usual_pressure(pressure) .or. .not. largest > 0.0_wp) return
       words = ""
       do i = 1, size(pressure_unit_names)
@@ -320,6 +323,51 @@ contains
       call add_line(remarks, table%path//": the pressure jumps from "//number_text(table%y(n), digits)//" in its last row to "// &
          & number_text(table%y(1), digits)//" in its first one, where the turn of the camshaft closes"//ask_crank)
    end subroutine remark_seam
+
+   !> A curve that leaves the rows it goes through: beside a jump, for which there are too few rows.
+   subroutine remark_swing(table, remarks)
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Part of the range of the pressure by which the curve may leave the four rows about a step: the peak of a smooth pressure
+      ! between two rows does by less, a curve beside a jump by several times as much [-]
+      real(wp), parameter :: small = 0.03_wp
+      ! Places within a step at which it is looked for
+      integer, parameter :: places = 8
+      type(spline_t) :: curve
+      type(error_t), allocatable :: error
+      ! Pressure and its derivatives; by how much the curve leaves the rows, at most; pressure there [unit of the table]
+      real(wp) :: values(0:3), swing, largest, extreme
+      ! Cam angles of the rows, and of the first one a turn later [deg]
+      real(wp), allocatable :: angle(:)
+      integer :: i, k, n, row
+
+      n = size(table%x)
+      if (table%x(n) - table%x(1) >= 360.0_wp) n = n - 1
+      angle = [table%x(:n), table%x(1) + 360.0_wp]
+      call new_periodic_spline(curve, angle, [table%y(:n), table%y(1)], 0.0_wp, error)
+      if (allocated(error)) return
+      largest = small*(maxval(table%y) - minval(table%y))
+      row = 0
+      do i = 1, n
+         associate (near => table%y(1 + modulo([i - 2, i - 1, i, i + 1], n)))
+            do k = 1, places - 1
+               call evaluate_spline(curve, angle(i) + (angle(i + 1) - angle(i))*real(k, wp)/places, values)
+               swing = max(values(0) - maxval(near), minval(near) - values(0))
+               if (swing <= largest) cycle
+               largest = swing
+               extreme = values(0)
+               row = i
+            end do
+         end associate
+      end do
+      if (row == 0) return
+      call add_line(remarks, table%path//": between its rows at "//number_text(angle(row), digits)//" and "// &
+         & number_text(angle(row + 1), digits)//" degrees the curve through the rows comes to "//number_text(extreme, 3)//", "// &
+         & number_text(largest, 3)//" beyond the rows about it; where the pressure jumps, more rows keep the curve beside them")
+   end subroutine remark_swing
 
    !> Is a largest pressure usual?
    elemental function is_usual_pressure(pressure) result(verdict)

@@ -1,8 +1,9 @@
 !> What keys are used for: the one table of keys that have no effect but under a choice made by another key, or in one command.
 !>
 !> In: settings, and a sweep whose keys vary. Out: whether a key is idle, and when it is used, in words. Where one of several rows
-!> of a key holds, the key is used.
+!> of a key holds, the key is used. A choice that has no effect itself makes no use of another key.
 module camroller_key_uses
+   use camroller_kinds, only : wp
    use camroller_deck_schema, only : key_length
    use camroller_deck_sweep, only : axis_of, sweep_t
    use camroller_deck_values, only : value_t
@@ -14,9 +15,10 @@ module camroller_key_uses
 
    !> Length of the names of choices, and of a list of their values
    integer, parameter :: choice_length = 64
-   !> Signs in the place of values: any value, or a group that is there; no value, or a group that is not there; a command that is
-   !> no run
-   character(len=*), parameter :: given = "(given)", not_given = "(not given)", by_command = "(command)"
+   !> Signs in the place of values: any value, or a group that is there; no value, or a group that is not there; a number above
+   !> zero; a command that is no run
+   character(len=*), parameter :: given = "(given)", not_given = "(not given)", above_zero = "(above zero)", &
+      & by_command = "(command)"
    !> Values of what is true or false
    character(len=*), parameter :: yes = ".true.", no = ".false."
 
@@ -135,7 +137,9 @@ module camroller_key_uses
       key_use_t("finger_pivot.viscous_part_s_m", "law", "stribeck"), &
       key_use_t("finger_pivot.reference_viscosity_Pa_s", "law", "stribeck"), &
       key_use_t("finger_pivot.reference_load_N", "law", "stribeck"), &
+      key_use_t("stem_seal.drag_follows", "viscous_drag_N_s_m", above_zero), &
       key_use_t("stem_seal.reference_viscosity_Pa_s", "drag_follows", "viscosity"), &
+      key_use_t("bearing_heat.heat_capacity_J_kg_K", "oil_share", above_zero), &
       key_use_t("gas_force.second_valve_diameter_mm", "&second_lift"), &
       key_use_t("cam_bearings.cam_cylinders", "&engine"), &
       key_use_t("dynamics.seat_damping_s_m", "seat_restitution", not_given), &
@@ -152,7 +156,7 @@ module camroller_key_uses
 contains
 
    !> Is there no case in which a key has an effect? Where its choice varies too, it may have one.
-   pure function is_idle(settings, sweep, key, of_runs) result(verdict)
+   pure recursive function is_idle(settings, sweep, key, of_runs) result(verdict)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys that vary
@@ -195,6 +199,8 @@ contains
             words = words//"with "//numbered(uses(i)%choice, key)
          else if (uses(i)%values == not_given) then
             words = words//"without "//trim(uses(i)%choice)
+         else if (uses(i)%values == above_zero) then
+            words = words//"with "//trim(uses(i)%choice)//" > 0"
          else if (uses(i)%values == by_command) then
             words = words//"by '"//trim(uses(i)%choice)//"'"
          else
@@ -222,18 +228,24 @@ contains
       if (any(uses%key == table_name(key) .and. uses%values == by_command)) words = " in a run"//words
       words = "has no effect"//words
       do i = 1, size(uses)
-         if (uses(i)%key /= table_name(key) .or. any(uses(i)%values == [character(len=choice_length) :: given, not_given])) cycle
+         if (uses(i)%key /= table_name(key) .or. any(uses(i)%values == &
+            & [character(len=choice_length) :: given, not_given, above_zero])) cycle
          associate (value => settings%values(value_of(settings, choice_of(key, uses(i)))))
             if (.not. value%is_known) return
-            words = words//"; "//trim(uses(i)%choice)//" is "
-            call add_alternatives(trim(word_of(value)), words)
+            words = words//"; "//trim(uses(i)%choice)
+            if (is_among(uses(i)%values, value)) then
+               words = words//" has no effect itself"
+            else
+               words = words//" is "
+               call add_alternatives(trim(word_of(value)), words)
+            end if
          end associate
          return
       end do
    end subroutine say_idle
 
    !> Is a use of a key open to the cases of a deck?
-   pure function holds(settings, sweep, use, choice) result(verdict)
+   pure recursive function holds(settings, sweep, use, choice) result(verdict)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys that vary
@@ -261,11 +273,26 @@ contains
             verdict = value%is_known
          case (not_given)
             verdict = .not. value%is_known
+         case (above_zero)
+            if (value%is_known) verdict = value%numbers(1) > 0.0_wp
          case default
-            if (value%is_known) verdict = index(" "//use%values//" ", " "//trim(word_of(value))//" ") > 0
+            if (value%is_known) verdict = is_among(use%values, value)
+            if (verdict) verdict = .not. is_idle(settings, sweep, choice, of_runs=.false.)
          end select
       end associate
    end function holds
+
+   !> Is a value one of those of a use?
+   pure function is_among(values, value) result(verdict)
+      !> Values of the use, blanks between them
+      character(len=*), intent(in) :: values
+      !> A name or true or false
+      type(value_t), intent(in) :: value
+      !> Is it?
+      logical :: verdict
+
+      verdict = index(" "//values//" ", " "//trim(word_of(value))//" ") > 0
+   end function is_among
 
    !> A value as it stands in the table.
    pure function word_of(value) result(word)

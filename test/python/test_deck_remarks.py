@@ -8,6 +8,7 @@ import subprocess
 import h5py
 import numpy as np
 import pytest
+from scipy.interpolate import make_interp_spline
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -243,6 +244,24 @@ def test_absolute_pressures_and_half_a_cycle_of_the_crankshaft_give_remarks(camr
     assert "no pressure of the turn is below 0.1 MPa; are these absolute pressures? The table takes gauge pressures" in found
     (found,) = pressure_remarks(camroller, tmp_path, lambda angle: 0.2 + 50 * (angle / 358) ** 8)
     assert "the pressure jumps from 50.2 in its last row to 0.2 in its first one" in found and "is the angle that of the crankshaft?" in found
+
+
+def test_a_curve_that_swings_beside_a_jump_of_the_pressure_gives_a_remark(camroller, tmp_path):
+    def blow_down(angle):
+        """Compression and expansion up to 60 bar, from which the opened valve lets the pressure fall [bar]."""
+        return 0.2 + (70 * math.exp(-((angle - 80) / 25) ** 2) if angle < 110 else 0)
+
+    (found,) = pressure_remarks(camroller, tmp_path, blow_down)
+    words = re.search(r"gas.txt: between its rows at (\d+) and (\d+) degrees the curve through the rows comes to (\S+), (\S+) beyond", found)
+    rows, numbers = [int(words[i]) for i in (1, 2)], [float(words[i]) for i in (3, 4)]
+    table = np.loadtxt(tmp_path / "gas.txt")
+    curve = make_interp_spline(np.append(table[:, 0], 360), np.append(table[:, 1], table[0, 1]), k=5, bc_type="periodic")
+    inside = np.linspace(*rows, 9)[1:-1]
+    near = [blow_down(angle) for angle in range(rows[0] - 2, rows[1] + 3, 2)]
+    outside = np.maximum(curve(inside) - max(near), min(near) - curve(inside))
+    assert numbers == pytest.approx([curve(inside)[outside.argmax()], outside.max()], rel=6e-3)
+    # a row every two degrees through ten degrees of the fall keeps the curve beside it
+    assert pressure_remarks(camroller, tmp_path, lambda angle: 0.2 + 35 * math.exp(-((angle - 80) / 25) ** 2) * math.erfc((angle - 110) / 6)) == []
 
 
 def test_a_pressure_below_a_vacuum_gives_a_remark(camroller, tmp_path):

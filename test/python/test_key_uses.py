@@ -37,7 +37,8 @@ VALUES = {
     "needle_bearing.skf_film_coefficient": "0.03",
     **{f"{group}.{key}": value for group in ("valve_tip", "guide_side_load", "finger_pivot") for key, value in
        (("decay_speed_m_s", "0.4"), ("viscous_part_s_m", "0.02"), ("reference_viscosity_Pa_s", "0.02"), ("reference_load_N", "200"))},
-    "stem_seal.reference_viscosity_Pa_s": "0.02", "cam_bearings.cam_cylinders": None,
+    "stem_seal.reference_viscosity_Pa_s": "0.02", "stem_seal.drag_follows": "viscosity",
+    "bearing_heat.heat_capacity_J_kg_K": "1900", "cam_bearings.cam_cylinders": None,
     "gas_force.second_valve_diameter_mm": "20",
     "dynamics.seat_damping_s_m": "2", "dynamics.seat_restitution_speed_m_s": "0.4",
     "effects.negligible": "0.05", "effects.quantity": "minimum_film",
@@ -95,11 +96,12 @@ SCENES = {
          "lubricant.temperature_law=data_sheet", "lubricant.sae_grade=5W-30"],
         JOINTS.replace("stribeck", "constant").replace("drag_N_s_m = 5", "drag_N_s_m = 5 drag_follows = 'constant'"),
         ["film.law asperity.mobilising_speed_m_s lift.max_lift_mm lift.segment_angles_deg lift.segment_accelerations",
-         "lubricant.sae_grade", SHEET.split(maxsplit=1)[1], NEEDLES]),
+         "lubricant.sae_grade stem_seal.drag_follows", SHEET.split(maxsplit=1)[1], NEEDLES]),
     "lift table, viscosity index, Stribeck": (
         ["lift.law=table", "lift.table=coarse_lift.txt", "lubricant.temperature_law=data_sheet",
          "lubricant.viscosity_at_100_degC_mm2_s=11", "lubricant.viscosity_index=160"], JOINTS,
-        [BOUNDARY, TABLE, SHEET, "lubricant.viscosity_index stem_seal.reference_viscosity_Pa_s", CURVES, NEEDLES]),
+        [BOUNDARY, TABLE, SHEET, "lubricant.viscosity_index stem_seal.drag_follows stem_seal.reference_viscosity_Pa_s",
+         CURVES, NEEDLES]),
     "direct viscosity, local limit, pin, crown, logarithmic boundary law, choice of effects": (
         ["lubricant.temperature_law=direct", "lubricant.viscosity_Pa_s=0.03", "traction.limit=local",
          "traction.limiting_stress_MPa=2", "needle_bearing.kind=journal", "needle_bearing.friction_coefficient=0.1",
@@ -119,8 +121,9 @@ SCENES = {
          "numerics.step_deg numerics.periodicity"]),
     JUMP: (
         ["case.energy=source", "spring.seating=maximum", "needle_bearing.kind=needles_skf", "needle_bearing.friction_coefficient=0.12", "needle_bearing.skf_rolling_factor=2.13e-6",
-         "needle_bearing.skf_sliding_factor=0.0015", "needle_bearing.skf_geometry_factor=6.2"], "&heat contact = 'none' /\n",
-        [BOUNDARY, POWER, POINTS, NEEDLES, SKF, "lubricant.density_kg_m3 lubricant.thermal_expansion_per_K"]),
+         "needle_bearing.skf_sliding_factor=0.0015", "needle_bearing.skf_geometry_factor=6.2"], "&heat contact = 'none' /\n&bearing_heat /\n",
+        [BOUNDARY, POWER, POINTS, NEEDLES, SKF, "lubricant.density_kg_m3 lubricant.thermal_expansion_per_K",
+         "bearing_heat.heat_capacity_J_kg_K"]),
     "gas on the valves of two lobe shapes": (
         ["cam_bearings.cam_lobes=1, 2", "cam_bearings.cam_positions_mm=20, 40", "cam_bearings.cam_phases_deg=0, 100"],
         GAS + "&second_lift max_lift_mm = 9 opening_half_angle_deg = 70 exponents = 4 /\n",
@@ -222,6 +225,24 @@ def test_a_default_of_an_idle_key_needs_no_remark(camroller):
     def remarks(value):
         return run(camroller, ROOT / "decks/thesis.nml", "check", value)
     assert "no effect" not in remarks("numerics.step_deg=1.0") and "numerics.step_deg = 2 has no effect" in remarks("numerics.step_deg=2")
+
+
+def test_keys_that_act_through_a_number_have_no_effect_where_it_is_zero(camroller, tmp_path):
+    text = (ROOT / "decks/thesis.nml").read_text()
+    deck = tmp_path / "deck.nml"
+    deck.write_text(text + "&stem_seal lip_force_N = 8 drag_follows = 'constant' reference_viscosity_Pa_s = 0.01 /\n&bearing_heat /\n")
+
+    def remarks(*values):
+        return re.findall(r"(\S+ = \S+ has no effect.*)", run(camroller, deck, "check", *values))
+    drag = "stem_seal.drag_follows = 'constant' has no effect: it is used with viscous_drag_N_s_m > 0"
+    viscosity = "stem_seal.reference_viscosity_Pa_s = 0.01 has no effect: it is used with drag_follows = 'viscosity'; drag_follows "
+    capacity = "bearing_heat.heat_capacity_J_kg_K = 1900 has no effect: it is used with oil_share > 0"
+    assert remarks() == [drag, viscosity + "is 'constant'"]
+    assert remarks("stem_seal.drag_follows=viscosity") == [viscosity + "has no effect itself"]
+    assert remarks("stem_seal.drag_follows=viscosity", "stem_seal.viscous_drag_N_s_m=2") == []
+    assert remarks("stem_seal.viscous_drag_N_s_m=2") == [viscosity + "is 'constant'"]
+    assert capacity not in remarks("bearing_heat.heat_capacity_J_kg_K=1900")
+    assert capacity in remarks("bearing_heat.heat_capacity_J_kg_K=1900", "bearing_heat.oil_share=0")
 
 
 @pytest.mark.parametrize(("sweep", "words"), [
