@@ -12,7 +12,7 @@ module camroller_deck_table_remarks
    use camroller_error, only : error_t
    use camroller_kinds, only : degree, wp
    use camroller_lift, only : evaluate_lift, given_table, lift_law_t, lift_t, new_lift_law
-   use camroller_lift_noise, only : find_lift_noise, find_outlier, lift_noise_t
+   use camroller_lift_noise, only : find_lift_noise, find_outlier, find_sharp_ends, lift_noise_t
    use camroller_lift_table, only : find_event
    use camroller_text_lines, only : add_line, line_t
    use camroller_number_text, only : integer_text, number_text
@@ -74,7 +74,9 @@ contains
          call add_line(remarks, table%path//": a largest lift of "//number_text(1.0e3_wp*largest, digits)// &
             & " mm is unusual: engines have 1 to 25 mm"//words)
       end if
+      i = size(remarks)
       call remark_noise(group, table%path, lift, remarks)
+      if (size(remarks) == i) call remark_ends(group, table%path, lift, remarks)
       first = findloc(lift%table_lift >= full_part*largest, .true., dim=1)
       last = findloc(lift%table_lift >= full_part*largest, .true., dim=1, back=.true.)
       full = 0.5_wp*(lift%table_angle(first) + lift%table_angle(last))/degree
@@ -150,6 +152,35 @@ contains
          & " in &"//group//" it is "//number_text(1.0e3_wp*noise%smoothed(1), 3)//" to "// &
          & number_text(1.0e3_wp*noise%smoothed(2), 3)//". Loads and the speed at which contact is lost follow it")
    end subroutine remark_noise
+
+   !> A lift that begins or ends with a slope.
+   subroutine remark_ends(group, path, lift, remarks)
+      !> Group of the lift, path of its table
+      character(len=*), intent(in) :: group, path
+      !> The lift
+      type(lift_t), intent(in) :: lift
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      logical :: is_sharp(2)
+      ! Largest second derivative at both ends and elsewhere [m/rad^2], slope by the ends [m/rad]
+      real(wp) :: acceleration(3), slope(2)
+      character(len=:), allocatable :: words
+      integer :: i
+
+      call find_sharp_ends(lift, is_sharp, acceleration, slope)
+      if (.not. any(is_sharp)) return
+      words = path//": the lift of the valve"
+      do i = 1, 2
+         if (i == 2 .and. all(is_sharp)) words = words//" and"
+         if (is_sharp(i)) words = words//trim(merge(" begins", " ends  ", i == 1))//" with a slope of "// &
+            & number_text(1.0e6_wp*degree*slope(i), 3)//" um/deg"
+      end do
+      call add_line(remarks, words//"; the curve through the rows takes it up within two of them, with a second derivative of "// &
+         & number_text(1.0e3_wp*maxval(acceleration(:2)), 3)//" mm/rad^2 (at most "//number_text(1.0e3_wp*acceleration(3), 3)// &
+         & " elsewhere), and more where rows are closer. Loads and the speed at which contact is lost follow it, and are not "// &
+         & "the cam's. Was a lash taken off? The table of &"//group//" takes the lift with its ramps")
+   end subroutine remark_ends
 
    !> A row of a lift table that does not go with its neighbours.
    subroutine remark_rows(settings, group, table, remarks)

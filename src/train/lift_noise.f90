@@ -1,16 +1,18 @@
-!> Noise of a lift table, and what it does to the acceleration; a single row that does not go with its neighbours.
+!> Noise of a lift table, and what it does to the acceleration; a single row that does not go with its neighbours; ends at which
+!> the lift has a slope.
 !>
 !> In: a table of lift over cam angle. Out: an estimate of the noise, and the acceleration with and without smoothing by as much;
-!> the row that is off, and by how much. A row that is off by e has fourth differences of e (1, -4, 6, -4, 1) about it.
+!> the row that is off, and by how much; the acceleration at the ends. A row that is off by e has fourth differences of
+!> e (1, -4, 6, -4, 1) about it.
 module camroller_lift_noise
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t
    use camroller_lift, only : evaluate_lift, given_table, lift_law_t, lift_t, new_lift_law
-   use camroller_lift_table, only : estimate_noise, has_even_rows, median, median_deviate
+   use camroller_lift_table, only : estimate_noise, find_event, has_even_rows, median, median_deviate
    implicit none
    private
 
-   public :: lift_noise_t, find_lift_noise, find_outlier
+   public :: lift_noise_t, find_lift_noise, find_outlier, find_sharp_ends
 
    !> What is known of the noise of a table
    type :: lift_noise_t
@@ -74,6 +76,53 @@ contains
          offset = off
       end do
    end subroutine find_outlier
+
+   !> Find the ends of an event at which the lift begins or ends with a slope, as a valve's lift does whose lash was taken off. The
+   !> curve through the rows starts at rest and gets that slope within a row or two: its acceleration there grows as the rows get
+   !> closer, and is no cam's. An end is taken for such a one where its acceleration is the largest: ramps bend less than flanks.
+   subroutine find_sharp_ends(lift, is_sharp, acceleration, slope)
+      !> Lift of the valve, by a table
+      type(lift_t), intent(in) :: lift
+      !> Is the first or the last end so?
+      logical, intent(out) :: is_sharp(2)
+      !> Largest second derivative within two rows of the ends, and farther than five from both, in size [m/rad^2]
+      real(wp), intent(out) :: acceleration(3)
+      !> Slope of the table two rows from the ends [m/rad]
+      real(wp), intent(out) :: slope(2)
+
+      ! Event above which the lift may fill the turn, and has no ends [deg]
+      real(wp), parameter :: longest = 350.0_wp
+      ! Rows next to an end whose steps count as its own; rows as far as which such an end reaches; places looked at in a step
+      integer, parameter :: own = 2, reach = 5, places = 8
+      type(lift_law_t) :: law
+      type(error_t), allocatable :: error
+      ! Lift and its derivatives [m, m/rad, ...]
+      real(wp) :: values(0:3)
+      ! Cam angles of the rows [rad]
+      real(wp), allocatable :: angle(:)
+      integer :: i, k, low, high
+
+      is_sharp = .false.
+      acceleration = 0.0_wp
+      slope = 0.0_wp
+      call new_lift_law(law, lift, error)
+      if (allocated(error)) return
+      call find_event(lift%table_angle, lift%table_lift, lift%smoothing, low, high)
+      angle = lift%table_angle
+      if (high - low < 4*reach .or. angle(high) - angle(low) > longest*degree) return
+      do i = low, high - 1
+         do k = 0, places - 1
+            call evaluate_lift(law, angle(i) + real(k, wp)/places*(angle(i + 1) - angle(i)), values)
+            if (i - low < own) acceleration(1) = max(acceleration(1), abs(values(2)))
+            if (high - i <= own) acceleration(2) = max(acceleration(2), abs(values(2)))
+            if (min(i - low, high - i - 1) >= reach) acceleration(3) = max(acceleration(3), abs(values(2)))
+         end do
+      end do
+      associate (row => [low + own, high - own])
+         slope = (lift%table_lift(row + 1) - lift%table_lift(row - 1))/(angle(row + 1) - angle(row - 1))
+      end associate
+      is_sharp = acceleration(:2) > acceleration(3)
+   end subroutine find_sharp_ends
 
    !> What a bend at two neighbouring rows leaves of fourth differences.
    pure function left_by_bend(about) result(left)

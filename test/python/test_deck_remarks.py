@@ -272,6 +272,30 @@ def test_a_pressure_below_a_vacuum_gives_a_remark(camroller, tmp_path):
     assert len(remarks) == 1 and "is below that of a vacuum, which only a higher pressure in the port explains" in remarks[0], remarks
 
 
+@pytest.mark.parametrize(("step", "speed"), [(1, 30e-3), (0.5, 15e-3)])  # deg, mm/deg
+def test_a_lift_whose_lash_was_taken_off_gives_a_remark(camroller, tmp_path, step, speed):
+    """With a ramp of constant speed the lift has a slope where a lash smaller than the ramp ends; it is known in closed form."""
+    begin = 92  # deg
+    way = np.linspace(0, 90, 9001)  # deg
+    # a start of six degrees, ten at constant speed below the flank, which ends thirty degrees on
+    ramp = np.cumsum(speed * np.clip(np.minimum(way / 6, (46 - way) / 30), 0, 1)) * (way[1] - way[0])  # mm
+
+    def lift(angle):
+        """The ramp, and a smooth event on top of it [mm]."""
+        return np.interp(begin - abs(angle - 180), way, ramp) + 9 * max(0.0, 1 - ((angle - 180) / (begin - 16)) ** 2) ** 4
+
+    def remarks(lash):
+        (tmp_path / "lift.txt").write_text("".join(f"{angle} {max(0.0, lift(angle) - lash):.9f}\n" for angle in np.arange(0, 360, step)))
+        return remarks_of(camroller, "decks/thesis.nml", "lift.law=table", f"lift.table={tmp_path / 'lift.txt'}")
+
+    assert not any("with a slope" in line for line in remarks(0))
+    (found,) = [line for line in remarks(7 * speed) if "with a slope" in line]
+    words = re.search(r"begins with a slope of (\S+) um/deg and ends with a slope of (\S+) um/deg; .*derivative of (\S+) mm/rad\^2", found)
+    assert float(words[1]) == pytest.approx(1e3 * speed, rel=0.2) and float(words[2]) == pytest.approx(-1e3 * speed, rel=0.2)
+    # taken up within a step from rest it needs this at least
+    assert float(words[3]) > math.degrees(math.degrees(speed)) / step
+
+
 def shifted_table(path, row, shift, kink=0.0):
     """The lift table of the decks, a row of it off by some millimetres, and slower by some of them in each row from there on."""
     rows = [line.split() for line in (ROOT / "decks/tables/polynomial_lift.txt").read_text().splitlines() if line.strip()[:1].isdigit()]
