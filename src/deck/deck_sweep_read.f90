@@ -450,6 +450,11 @@ contains
             call complain(mistakes, settings, "sweep", "table", "'"//axis%key//"' is in the table twice")
             cycle
          end if
+         if (columns(i)%unit /= "" .and. columns(i)%unit /= axis%unit) then
+            call add_mistake(mistakes, "'"//axis%key//"' is in '"//columns(i)%unit//"'; the key takes '"//trim(axis%unit)//"'", &
+               & 0, 0, 0, path)
+            cycle
+         end if
          axis%values = columns(i)%cells
          sweep%axes = [sweep%axes, axis]
          call try_values(schema, settings, sweep, "table", mistakes, path, columns(i)%lines)

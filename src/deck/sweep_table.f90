@@ -116,6 +116,7 @@ contains
                widths = 1
                do j = 1, row%count
                   columns(j)%key = without_quotes(trim(row%words(j)))
+                  columns(j)%unit = ""
                end do
             else if (pass == 1) then
                widths = max(widths, len_trim(row%words(:row%count)))
@@ -304,6 +305,12 @@ contains
       else if (opening < len(column%key)) then
          call read_unit(column%key(opening + 1:), measured%unit, words)
          if (words /= "") call add_mistake(mistakes, "'"//column%key//"': "//words, 0, 0, 0, path)
+      end if
+      if (column%unit /= "" .and. opening > len(column%key)) then
+         call read_unit("["//column%unit//"]", measured%unit, words)
+         if (words /= "") call add_mistake(mistakes, "'"//column%key//"': "//words, 0, 0, 0, path)
+      else if (column%unit /= "" .and. column%unit /= measured%unit) then
+         call add_mistake(mistakes, "'"//column%key//"' has the unit '"//column%unit//"' as well", 0, 0, 0, path)
       end if
       do i = 1, column%cells%count
          cell = text_at(column%cells, i)

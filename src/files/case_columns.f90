@@ -17,6 +17,8 @@ module camroller_case_columns
    type :: column_t
       !> Name of the key, as `group.key`
       character(len=:), allocatable :: key
+      !> Unit that the file gives beside the name; empty where it gives none
+      character(len=:), allocatable :: unit
       !> Its value in each case
       type(text_list_t) :: cells
       !> Line of each case in the file, 0 where it has no lines

@@ -1,7 +1,8 @@
 !> Tables of cases in HDF5 files.
 !>
 !> In: a path. Out: columns of texts. The columns are datasets with one axis, named `group.key`, at the root, where nothing else may
-!> stand, or in a group `/sweep`, so that a result file is a table of its own cases, with what was measured in them.
+!> stand, or in a group `/sweep`, so that a result file is a table of its own cases, with what was measured in them. Their attribute
+!> `units`, where they have one, is the column's unit.
 module camroller_hdf5_columns
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp
@@ -104,28 +105,25 @@ contains
       character(len=*), parameter :: group = "/measured"
       type(column_t) :: column
       character(len=member_length), allocatable :: names(:)
-      character(len=:), allocatable :: unit
       integer :: i
 
       if (.not. has_member(file, group)) return
       call list_members(file, group, names, error)
       do i = 1, size(names)
          if (allocated(error)) return
-         call read_text_attribute(file, group//"/"//trim(names(i)), "units", unit, error)
-         if (allocated(error)) return
-         column%key = measured_prefix//trim(names(i))//" ["//unit//"]"
+         column%key = measured_prefix//trim(names(i))
          call read_cells(file, group//"/"//trim(names(i)), column, error)
          if (.not. allocated(error)) columns = [columns, column]
       end do
    end subroutine add_measured
 
-   !> Values of a dataset as texts.
+   !> Unit and values of a dataset, these as texts.
    subroutine read_cells(file, name, column, error)
       !> An open file
       type(hdf5_object_t), intent(in) :: file
       !> Name of the dataset from the root
       character(len=*), intent(in) :: name
-      !> Gets the values
+      !> Gets unit and values
       type(column_t), intent(inout) :: column
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -137,6 +135,10 @@ contains
       integer :: i, n, width, pass
 
       call read_extents(file, name, 1, extents, error)
+      column%unit = ""
+      if (.not. allocated(error)) then
+         if (has_member(file, name, "units")) call read_text_attribute(file, name, "units", column%unit, error)
+      end if
       if (allocated(error)) return
       n = extents(1)
       if (allocated(column%lines)) deallocate (column%lines)

@@ -7,9 +7,9 @@
 module camroller_hdf5_read
    use, intrinsic :: iso_c_binding, only : c_associated, c_loc, c_null_ptr, c_ptr
    use, intrinsic :: iso_fortran_env, only : int64
-   use hdf5, only : hid_t, hsize_t, size_t, h5aclose_f, h5aexists_f, h5aget_space_f, h5aget_type_f, h5aopen_f, h5aread_f, &
-      & h5dclose_f, h5dget_space_f, h5dget_storage_size_f, h5dread_f, h5dvlen_reclaim_f, h5fis_hdf5_f, h5fopen_f, h5gclose_f, &
-      & h5gget_info_f, h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5oclose_f, h5oopen_f, h5sclose_f, &
+   use hdf5, only : hid_t, hsize_t, size_t, h5aclose_f, h5aexists_by_name_f, h5aget_space_f, h5aget_type_f, &
+      & h5aopen_by_name_f, h5aread_f, h5dclose_f, h5dget_space_f, h5dget_storage_size_f, h5dread_f, h5dvlen_reclaim_f, &
+      & h5fis_hdf5_f, h5fopen_f, h5gclose_f, h5gget_info_f, h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5sclose_f, &
       & h5sselect_hyperslab_f, h5tclose_f, h5f_acc_rdonly_f, h5p_default_f, h5s_select_set_f, h5t_native_double, &
       & h5t_native_integer, h5_index_crt_order_f, h5_index_name_f, h5_iter_inc_f
    use camroller_kinds, only : wp
@@ -81,11 +81,13 @@ contains
    end subroutine open_file
 
    !> Whether a name inside the file leads to an object.
-   function has_member(file, name) result(answer)
+   function has_member(file, name, attribute) result(answer)
       !> An open file
       type(hdf5_object_t), intent(in) :: file
       !> Name from the root, e.g. `/series/traction`
       character(len=*), intent(in) :: name
+      !> Name of an attribute that it is to have
+      character(len=*), intent(in), optional :: attribute
       !> True where every part of the name exists
       logical :: answer
 
@@ -93,7 +95,11 @@ contains
 
       call quiet_hdf5()
       call begin_call(file%file)
-      call h5lexists_f(file%id, name, answer, status)
+      if (present(attribute)) then
+         call h5aexists_by_name_f(file%id, name, attribute, answer, status)
+      else
+         call h5lexists_f(file%id, name, answer, status)
+      end if
       call end_call()
       if (status /= 0) answer = .false.
    end function has_member
@@ -404,36 +410,21 @@ contains
       !> File error, also where there is no such attribute
       type(error_t), allocatable, intent(out) :: error
 
-      integer(hid_t) :: id
-      integer :: status, ignored
-      logical :: exists
-
-      call quiet_hdf5()
-      call begin_call(file%file)
-      call h5oopen_f(file%id, object, id, status)
-      if (status /= 0) then
-         call end_call()
-         call raise_read(error, file, object)
+      if (.not. has_member(file, object, name)) then
+         call raise(error, kind_file, "'"//object//"' of '"//file%file//"' has no attribute '"//name//"'")
          return
       end if
-      call h5aexists_f(id, name, exists, status)
-      if (status == 0 .and. exists) then
-         call read_value(file, id, object//":"//name, name, kind, memory_type, address, error)
-      else
-         call raise(error, kind_file, "'"//object//"' of '"//file%file//"' has no attribute '"//name//"'")
-      end if
-      call h5oclose_f(id, ignored)
+      call begin_call(file%file)
+      call read_value(file, object, name, kind, memory_type, address, error)
       call end_call()
    end subroutine read_attribute
 
    !> Read the value of an attribute that is there.
-   subroutine read_value(file, id, shown, name, kind, memory_type, address, error)
+   subroutine read_value(file, object, name, kind, memory_type, address, error)
       !> An open file
       type(hdf5_object_t), intent(in) :: file
-      !> The open object
-      integer(hid_t), intent(in) :: id
-      !> What messages call the attribute, and its name
-      character(len=*), intent(in) :: shown, name
+      !> Name of the object from the root, and of the attribute
+      character(len=*), intent(in) :: object, name
       !> Kind of its value
       integer, intent(in) :: kind
       !> Type of the value in memory
@@ -447,11 +438,14 @@ contains
       type(shape_t) :: shape
       integer(hid_t) :: attribute, space, value_type
       integer :: status, ignored
+      ! What messages call the attribute
+      character(len=:), allocatable :: shown
 
+      shown = object//":"//name
       target_address = address
       space = -1_hid_t
       value_type = -1_hid_t
-      call h5aopen_f(id, name, attribute, status)
+      call h5aopen_by_name_f(file%id, object, name, attribute, status)
       if (status /= 0) then
          call raise_read(error, file, shown)
          return

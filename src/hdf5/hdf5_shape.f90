@@ -142,9 +142,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       if (shape%kind == kind) return
-      call raise(error, kind_file, "'"//name//"' of '"//file%file//"' holds no "// &
-         & trim(merge("numbers", "texts  ", kind == of_numbers))//trim(merge(", but texts of fixed length", &
-         & "                           ", shape%has_fixed_texts)))
+      if (shape%has_fixed_texts) then
+         call raise(error, kind_file, "'"//name//"' of '"//file%file//"' holds texts of fixed length; those that are read have "// &
+            & "a variable one, as of h5py.string_dtype()")
+      else
+         call raise(error, kind_file, "'"//name//"' of '"//file%file//"' holds no "// &
+            & trim(merge("numbers", "texts  ", kind == of_numbers)))
+      end if
    end subroutine check_kind
 
    !> Error of reading an object.

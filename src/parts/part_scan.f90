@@ -7,9 +7,9 @@ module camroller_part_scan
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file
-   use camroller_number_text, only : integer_text, number_text
+   use camroller_number_text, only : number_text
    use camroller_layout, only : layout_list_t, layout_t, set_layout_at, take_layout
-   use camroller_text_lines, only : line_t
+   use camroller_text_lines, only : add_line, line_t
    use camroller_raw_file, only : raw_file_t, read_words, word_size
    use camroller_record, only : record_t, checksum, clear_record, take_integer, take_text
    implicit none
@@ -171,23 +171,19 @@ contains
       call raise(error, kind_file, "'"//file%path//"' is not a part file of a sweep; give it another name")
    end subroutine check_beginning
 
-   !> Take note of damage.
+   !> Take note of damage, once where several records of a file have the same.
    subroutine add_damage(index, words)
       !> The index
       type(index_t), intent(inout) :: index
       !> What is damaged
       character(len=*), intent(in) :: words
 
-      type(line_t), allocatable :: longer(:)
       integer :: i
 
-      ! one by one: the compiler loses texts of a list that is put together of others
-      allocate (longer(size(index%damages) + 1))
       do i = 1, size(index%damages)
-         call move_alloc(index%damages(i)%text, longer(i)%text)
+         if (index%damages(i)%text == words) return
       end do
-      longer(size(longer))%text = words
-      call move_alloc(longer, index%damages)
+      call add_line(index%damages, words)
    end subroutine add_damage
 
    !> Read the record at a place.
@@ -336,8 +332,7 @@ contains
          if (.not. is_readable) call set_layout_at(index%layouts, entry%layout, layout_t())
       end if
       if (.not. is_readable) then
-         call add_damage(index, "'"//path//"' is damaged: what the numbers of the "//integer_text(entry%count)// &
-            & " cases from case "//integer_text(entry%first - 1)//" on are is not there")
+         call add_damage(index, "'"//path//"' is damaged: what it says of the quantities of some of its cases is lost")
          return
       end if
       entry%offset = offset

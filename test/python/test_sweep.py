@@ -472,10 +472,30 @@ def test_a_result_as_a_table_keeps_what_was_measured(camroller, tmp_path):
             assert first["measured"][name].attrs["units"] == second["measured"][name].attrs["units"]
 
 
+def test_units_of_a_table_in_hdf5_are_those_of_its_keys_or_told(camroller, tmp_path):
+    def sweep(speed, torque, name="measured.torque"):
+        with h5py.File(tmp_path / "cases.h5", "w") as file:
+            for key, unit in (("operating_point.speed_rpm", speed), (name, torque)):
+                file[key] = [300.0, 900.0]
+                file[key].attrs["units"] = unit
+        deck = write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.h5'")
+        return run(camroller, "sweep", deck, "-o", "made.h5", folder=tmp_path)
+
+    assert sweep("rpm", "N mm").returncode == 0
+    with h5py.File(tmp_path / "made.h5") as file:
+        assert file["measured/torque"].attrs["units"] == "N mm"
+    assert sweep("rpm", "N mm", "measured.torque [N mm]").returncode == 0
+    for words, *given in (("'operating_point.speed_rpm' is in 'rad/s'; the key takes 'rpm'", "rad/s", "N mm"),
+                          ("'measured.torque [N m]' has the unit 'N mm' as well", "rpm", "N mm", "measured.torque [N m]"),
+                          ("the longest has 32", "rpm", 33 * "m")):
+        refused = sweep(*given)
+        assert refused.returncode == 3 and words in refused.stderr, refused.stderr
+
+
 @pytest.mark.parametrize("name, values, words", [
     ("oil_temperature_degC", [25.0, 60.0], "cases.h5' is no column of a table of cases"),
     ("operating_point/oil_temperature_degC", [25.0, 60.0], "cases.h5' is no column of a table of cases"),
-    ("film.law", numpy.array([b"moes", b"moes"]), "cases.h5' holds no numbers, but texts of fixed length")])
+    ("film.law", numpy.array([b"moes", b"moes"]), "cases.h5' holds texts of fixed length; those that are read have a variable one")])
 def test_what_is_no_column_of_a_table_in_hdf5_is_told(camroller, tmp_path, name, values, words):
     with h5py.File(tmp_path / "cases.h5", "w") as file:
         file["operating_point.speed_rpm"] = [300.0, 900.0]
