@@ -66,20 +66,10 @@ contains
       !> Numbers, in and out [any]
       real(wp), intent(inout) :: values(:)
 
-      ! The one being placed [any]
-      real(wp) :: value
-      integer :: i, j
+      integer :: order(size(values))
 
-      do i = 2, size(values)
-         value = values(i)
-         j = i - 1
-         do while (j >= 1)
-            if (values(j) <= value) exit
-            values(j + 1) = values(j)
-            j = j - 1
-         end do
-         values(j + 1) = value
-      end do
+      call find_order(values, order)
+      values = values(order)
    end subroutine sort
 
    !> Median, the mean of the two in the middle where their number is even.

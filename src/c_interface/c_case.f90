@@ -3,7 +3,7 @@
 !> In: decks as text or file, values for keys. Out: opaque handles, numbers by name, codes.
 module camroller_c_case
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : degree, wp
    use camroller_blas_threads, only : use_one_blas_thread
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_version, only : version_number, version_text
@@ -356,8 +356,6 @@ contains
       !> 0 or the kind of the error
       integer(c_int) :: code
 
-      ! Degrees to radians [rad]
-      real(wp), parameter :: one_degree = acos(-1.0_wp)/180.0_wp
       type(result_handle_t), pointer :: given
       ! The caller's numbers, ours [unit of the series]
       real(c_double), pointer :: numbers(:)
@@ -372,7 +370,7 @@ contains
          call c_f_pointer(handle, given)
          call take_text(name, word)
          if (word == "cam_angle") then
-            series = given%result%angle*one_degree
+            series = given%result%angle*degree
          else
             call get_series(given%result, word, series, failure)
          end if

@@ -4,6 +4,7 @@
 module camroller_c_texts
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_null_char, c_ptr, c_size_t
    use camroller_error, only : error_t, raise, kind_usage
+   use camroller_system_file, only : text_at_address
    implicit none
    private
 
@@ -20,14 +21,6 @@ module camroller_c_texts
       character(kind=c_char) :: message(message_room)
    end type c_error_t
 
-   interface
-      pure function c_strlen(text) bind(C, name="strlen") result(length)
-         import :: c_ptr, c_size_t
-         type(c_ptr), value, intent(in) :: text
-         integer(c_size_t) :: length
-      end function c_strlen
-   end interface
-
 contains
 
    !> Text of Fortran from one of C; empty for NULL.
@@ -37,17 +30,8 @@ contains
       !> The same in Fortran
       character(len=:), allocatable, intent(out) :: text
 
-      character(kind=c_char), pointer :: letters(:)
-      integer :: i, length
-
-      length = 0
-      if (c_associated(address)) length = int(c_strlen(address))
-      allocate (character(len=length) :: text)
-      if (length == 0) return
-      call c_f_pointer(address, letters, [length])
-      do i = 1, length
-         text(i:i) = letters(i)
-      end do
+      text = ""
+      if (c_associated(address)) call text_at_address(address, text)
    end subroutine take_text
 
    !> Fill a caller's buffer with a text and a zero; what does not fit is cut.

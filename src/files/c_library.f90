@@ -6,9 +6,9 @@ module camroller_c_library
    implicit none
    private
 
-   public :: glob_t, c_access, c_chmod, c_close, c_closedir, c_errno, c_fallocate, c_fclose, c_fileno, c_flock, c_fopen, c_fread, &
-      & c_fseek, c_fsync, c_ftell, c_ftruncate, c_getpid, c_glob, c_globfree, c_gmtime, c_lseek, c_open, c_opendir, &
-      & c_pread, c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time, c_unlink, c_usleep, c_write
+   public :: glob_t, c_chmod, c_close, c_errno, c_fallocate, c_fclose, c_fileno, c_flock, c_fopen, c_fread, &
+      & c_fseek, c_fsync, c_ftell, c_ftruncate, c_getpid, c_glob, c_globfree, c_gmtime, c_lseek, c_open, &
+      & c_pread, c_realpath, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time, c_unlink, c_usleep, c_write
 
    !> Result of `glob`, as C libraries lay it out, with room for what follows
    type, bind(C) :: glob_t
@@ -18,13 +18,6 @@ module camroller_c_library
    end type glob_t
 
    interface
-      function c_access(path, mode) bind(C, name="access") result(status)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-         integer(c_int) :: status
-      end function c_access
-
       function c_chmod(path, mode) bind(C, name="chmod") result(status)
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
@@ -37,12 +30,6 @@ module camroller_c_library
          integer(c_int), value :: descriptor
          integer(c_int) :: status
       end function c_close
-
-      function c_closedir(folder) bind(C, name="closedir") result(status)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: folder
-         integer(c_int) :: status
-      end function c_closedir
 
       function c_errno() bind(C, name="__errno_location") result(address)
          import :: c_ptr
@@ -153,12 +140,6 @@ module camroller_c_library
          integer(c_int) :: descriptor
       end function c_open
 
-      function c_opendir(path) bind(C, name="opendir") result(folder)
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*)
-         type(c_ptr) :: folder
-      end function c_opendir
-
       function c_pread(descriptor, bytes, count, offset) bind(C, name="pread") result(found)
          import :: c_int, c_int64_t, c_ptr, c_size_t
          integer(c_int), value :: descriptor
@@ -174,12 +155,6 @@ module camroller_c_library
          character(kind=c_char), intent(out) :: resolved(*)
          type(c_ptr) :: address
       end function c_realpath
-
-      function c_remove(path) bind(C, name="remove") result(status)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int) :: status
-      end function c_remove
 
       function c_rename(old, new) bind(C, name="rename") result(status)
          import :: c_char, c_int

@@ -14,8 +14,8 @@ module camroller_file_facts
    type :: file_facts_t
       !> Is there something of that name, a link that leads nowhere included?
       logical :: is_there = .false.
-      !> Is it a regular file?
-      logical :: is_regular = .false.
+      !> Is it a regular file, or a folder?
+      logical :: is_regular = .false., is_folder = .false.
       !> Size of a regular file [byte]
       integer(int64) :: bytes = 0
       !> Kind, as the system numbers it
@@ -107,6 +107,7 @@ contains
       facts%kind = iand(int(answer%mode), kind_mask)
       facts%permissions = iand(int(answer%mode), permission_mask)
       facts%is_regular = facts%kind == kind_regular
+      facts%is_folder = facts%kind == kind_folder
       if (facts%is_regular) facts%bytes = answer%bytes
       facts%device = answer%device
       facts%node = answer%node

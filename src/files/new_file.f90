@@ -12,7 +12,7 @@ module camroller_new_file
    use camroller_number_text, only : integer_text
    use camroller_output_kind, only : is_earlier_output, output_kind_t
    use camroller_raw_file, only : append_text, close_raw, create_raw, open_raw, raw_file_t, settle_raw
-   use camroller_system_file, only : is_folder, process_number, remove_file, rename_file, resolve_path, set_permissions
+   use camroller_system_file, only : process_number, remove_file, rename_file, resolve_path, set_permissions
    use camroller_text_file, only : folder_of
    use camroller_unfinished, only : forget_unfinished, remember_unfinished
    implicit none
@@ -59,8 +59,9 @@ contains
 
       facts = facts_of_path(path)
       if (.not. facts%is_there) then
-         if (.not. is_folder(folder_of(path)//".")) call raise(error, kind_file, "cannot write '"//path// &
-            & "': there is no folder '"//folder_of(path)//"'")
+         facts = facts_of_path(folder_of(path)//".")
+         if (.not. facts%is_folder) call raise(error, kind_file, "cannot write '"//path//"': there is no folder '"// &
+            & folder_of(path)//"'")
          return
       end if
       do i = 1, size(inputs)

@@ -5,12 +5,12 @@
 module camroller_system_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_null_char, &
       & c_null_ptr, c_ptr, c_size_t
-   use camroller_c_library, only : c_chmod, c_closedir, c_errno, c_fallocate, c_fsync, c_ftruncate, c_getpid, c_gmtime, c_opendir, &
-      & c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time, c_usleep
+   use camroller_c_library, only : c_chmod, c_errno, c_fallocate, c_fsync, c_ftruncate, c_getpid, c_gmtime, &
+      & c_realpath, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time, c_unlink, c_usleep
    implicit none
    private
 
-   public :: process_number, pause_briefly, is_folder, rename_file, remove_file, resolve_path, set_permissions
+   public :: process_number, pause_briefly, rename_file, remove_file, resolve_path, set_permissions
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
    public :: ignore_size_signal, restore_size_signal, error_number, system_words, text_at_address
 
@@ -39,21 +39,6 @@ contains
 
       ignored = c_usleep(100000_c_int)
    end subroutine pause_briefly
-
-   !> Whether a path names a folder that can be opened.
-   function is_folder(path) result(answer)
-      !> The path
-      character(len=*), intent(in) :: path
-      !> True for a folder
-      logical :: answer
-
-      type(c_ptr) :: folder
-      integer(c_int) :: status
-
-      folder = c_opendir(path//c_null_char)
-      answer = c_associated(folder)
-      if (answer) status = c_closedir(folder)
-   end function is_folder
 
    !> Give a file another name; a file of that name is replaced in one step.
    subroutine rename_file(old, new, done)
@@ -205,7 +190,7 @@ contains
 
       integer(c_int) :: status
 
-      status = c_remove(path//c_null_char)
+      status = c_unlink(path//c_null_char)
    end subroutine remove_file
 
    !> Now, as `2030-01-31T23:59:59Z`.

@@ -4,7 +4,7 @@
 module camroller_text_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_int, c_loc, c_long, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int64
-   use camroller_c_library, only : c_access, c_fclose, c_fopen, c_fread, c_fseek, c_ftell
+   use camroller_c_library, only : c_fclose, c_fopen, c_fread, c_fseek, c_ftell
    use camroller_error, only : error_t, raise, kind_file
    use camroller_file_facts, only : facts_of_path, file_facts_t, kind_in_words
    use camroller_number_text, only : integer_text
@@ -20,7 +20,7 @@ module camroller_text_file
    !> Larger files are no decks and no tables [bytes]
    integer(int64), parameter :: largest_size = 64_int64*1024_int64*1024_int64
    !> What `fseek` takes for the start and the end of a file, and `access` to ask whether there is one
-   integer(c_int), parameter :: from_start = 0_c_int, from_end = 2_c_int, is_it_there = 0_c_int
+   integer(c_int), parameter :: from_start = 0_c_int, from_end = 2_c_int
 
 contains
 
@@ -103,11 +103,11 @@ contains
       integer(int64) :: bytes, found
       logical :: is_fine
 
-      if (c_access(path//c_null_char, is_it_there) /= 0) then
+      facts = facts_of_path(path)
+      if (.not. facts%is_there) then
          call raise(error, kind_file, "there is no file '"//path//"'")
          return
       end if
-      facts = facts_of_path(path)
       if (.not. facts%is_regular) then
          advice = ""
          if (kind_in_words(facts) == "a pipe") advice = "; only a deck may come by one, as the standard input, whose name is -"

@@ -3,13 +3,13 @@
 !> In: open objects. Out: attributes with one value; dimensions after the HDF5 Dimension Scale Specification,
 !> which is what netCDF-4 files use.
 module camroller_hdf5_attribute
-   use, intrinsic :: iso_c_binding, only : c_char, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_loc, c_null_char, c_ptr
    use hdf5, only : hid_t, h5aclose_f, h5acreate_f, h5awrite_f, h5sclose_f, h5tclose_f, h5t_ieee_f64le, &
       & h5t_native_double, h5t_native_integer, h5t_std_i32le
    use h5ds, only : h5dsattach_scale_f, h5dsset_scale_f
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use camroller_hdf5_object, only : hdf5_object_t, letters_of, open_space, open_text_type, raise_object
+   use camroller_hdf5_object, only : hdf5_object_t, open_space, open_text_type, raise_object
    implicit none
    private
 
@@ -35,12 +35,12 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(kind=c_char), allocatable, target :: letters(:)
+      character(len=:), allocatable, target :: letters
       type(c_ptr), target :: address(1)
       integer(hid_t) :: text_type
       integer :: status, ignored
 
-      call letters_of(text, letters)
+      letters = trim(text)//c_null_char
       address(1) = c_loc(letters)
       call open_text_type(text_type, status)
       if (status /= 0) then

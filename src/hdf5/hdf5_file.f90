@@ -5,7 +5,7 @@
 !> file depends on the time of writing: the library's time stamps are off. Closing a file closes all that was opened in
 !> it.
 module camroller_hdf5_file
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_associated, c_f_pointer, c_int, c_int64_t, c_loc, c_null_char, c_ptr
    use hdf5, only : hid_t, hsize_t, h5dcreate_f, h5dget_space_f, h5dwrite_f, h5fclose_f, h5fcreate_f, h5fflush_f, &
       & h5fget_filesize_f, h5gcreate_f, h5oclose_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, &
       & h5pset_fclose_degree_f, h5pset_shuffle_f, h5sclose_f, h5sselect_hyperslab_f, h5tclose_f, h5f_acc_excl_f, &
@@ -15,7 +15,7 @@ module camroller_hdf5_file
    use camroller_error, only : error_t, raise, kind_file
    use camroller_hdf5_lists, only : close_lists, object_list, open_lists
    use camroller_hdf5_status, only : raise_hdf5, start_hdf5
-   use camroller_hdf5_object, only : hdf5_object_t, letters_of, member_name, open_space, open_text_type, raise_object
+   use camroller_hdf5_object, only : hdf5_object_t, member_name, open_space, open_text_type, raise_object
    use camroller_system_file, only : reserve_space, set_file_size, sync_descriptor
    implicit none
    private
@@ -377,12 +377,12 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(kind=c_char), allocatable, target :: letters(:)
+      character(len=:), allocatable, target :: letters
       type(c_ptr), target :: address(1)
       integer(hid_t) :: text_type
       integer :: status, ignored
 
-      call letters_of(text, letters)
+      letters = trim(text)//c_null_char
       address(1) = c_loc(letters)
       call open_text_type(text_type, status)
       if (status /= 0) then

@@ -2,7 +2,7 @@
 !>
 !> In: extents, texts. Out: `hdf5_object_t` and helpers that the modules for files, attributes and reading share.
 module camroller_hdf5_object
-   use, intrinsic :: iso_c_binding, only : c_char, c_int64_t, c_null_char
+   use, intrinsic :: iso_c_binding, only : c_int64_t
    use hdf5, only : hid_t, hsize_t, h5screate_f, h5screate_simple_f, h5tcopy_f, h5tset_cset_f, h5s_scalar_f, &
       & h5t_cset_utf8_f, h5t_string
    use camroller_error, only : error_t
@@ -11,7 +11,7 @@ module camroller_hdf5_object
    implicit none
    private
 
-   public :: hdf5_object_t, open_space, open_text_type, letters_of, member_name, raise_object
+   public :: hdf5_object_t, open_space, open_text_type, member_name, raise_object
 
    !> A file, a group or a dataset that is open
    type :: hdf5_object_t
@@ -57,23 +57,6 @@ contains
       call h5tcopy_f(h5t_string, text_type, status)
       if (status == 0) call h5tset_cset_f(text_type, h5t_cset_utf8_f, status)
    end subroutine open_text_type
-
-   !> Letters of a text, closed by a null character as C wants them.
-   pure subroutine letters_of(text, letters)
-      !> The text
-      character(len=*), intent(in) :: text
-      !> Its letters
-      character(kind=c_char), allocatable, intent(out) :: letters(:)
-
-      integer :: i, length
-
-      length = len_trim(text)
-      allocate (letters(length + 1))
-      do i = 1, length
-         letters(i) = text(i:i)
-      end do
-      letters(length + 1) = c_null_char
-   end subroutine letters_of
 
    !> Name of a member inside the file.
    pure function member_name(parent, name) result(full)

@@ -5,9 +5,10 @@
 !> Fortran wrapper, hence the C interface.
 module camroller_hdf5_status
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_int64_t, c_loc, c_f_pointer, c_funloc, c_funptr, &
-      & c_null_char, c_ptr, c_associated
+      & c_ptr, c_associated
    use hdf5, only : h5open_f, h5eset_auto_f, h5iis_valid_f, h5t_native_double
    use camroller_error, only : error_t, raise, kind_file
+   use camroller_system_file, only : text_at_address
    implicit none
    private
 
@@ -161,70 +162,26 @@ contains
       integer(c_int) :: status
 
       type(reason_t), pointer :: reason
-      character(kind=c_char), pointer :: letters(:)
-      integer :: first, last
+      character(len=:), allocatable :: words
+      integer :: first, i
 
       status = 0
       if (.not. c_associated(entry%description)) return
       call c_f_pointer(sink, reason)
       if (reason%from_system == 1) return
-      call c_f_pointer(entry%description, letters, [10*reason_length])
-      call find_system_words(letters, first, last)
+      call text_at_address(entry%description, words)
+      first = index(words, system_marker)
       if (first > 0) then
          reason%from_system = 1
+         words = words(first + len(system_marker):)
+         words = words(:index(words//"'", "'") - 1)
       else if (position > 0) then
          return
-      else
-         first = 1
-         last = text_length(letters)
       end if
-      last = min(last, first + reason_length - 1)
-      reason%length = int(last - first + 1, c_int)
-      reason%text(1:last - first + 1) = letters(first:last)
+      reason%length = int(min(len(words), reason_length), c_int)
+      do i = 1, reason%length
+         reason%text(i) = words(i:i)
+      end do
    end function visit_entry
-
-   !> Where the words of the operating system stand in a C text, both 0 where there are none.
-   subroutine find_system_words(letters, first, last)
-      !> A C text and what follows it in memory
-      character(kind=c_char), intent(in) :: letters(:)
-      !> First letter of the words
-      integer, intent(out) :: first
-      !> Last letter of the words
-      integer, intent(out) :: last
-
-      integer :: length, start, i
-      logical :: same
-
-      first = 0
-      last = 0
-      length = text_length(letters)
-      do start = 1, length - len(system_marker)
-         same = .true.
-         do i = 1, len(system_marker)
-            same = same .and. letters(start + i - 1) == system_marker(i:i)
-         end do
-         if (.not. same) cycle
-         first = start + len(system_marker)
-         last = first
-         do while (last < length .and. letters(last + 1) /= "'")
-            last = last + 1
-         end do
-         return
-      end do
-   end subroutine find_system_words
-
-   !> Letters before the null character.
-   pure function text_length(letters) result(length)
-      !> A C text and what follows it in memory
-      character(kind=c_char), intent(in) :: letters(:)
-      !> Its length
-      integer :: length
-
-      length = 0
-      do while (length < size(letters))
-         if (letters(length + 1) == c_null_char) exit
-         length = length + 1
-      end do
-   end function text_length
 
 end module camroller_hdf5_status

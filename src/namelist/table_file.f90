@@ -5,6 +5,7 @@
 !> line whose first two words are no numbers. A table may have more columns where its heading names the two that are wanted.
 module camroller_table_file
    use camroller_kinds, only : wp
+   use camroller_sorting, only : median
    use camroller_text_file, only : read_text_file
    use camroller_error, only : error_t
    use camroller_mistakes, only : mistakes_t, add_mistake, shown
@@ -343,40 +344,17 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       !> Distances between the rows, and the one in the middle of them by size [unit of the file]
-      real(wp) :: intervals(size(table%x) - 1), median
+      real(wp) :: intervals(size(table%x) - 1), usual
       integer :: n, widest
 
       n = size(table%x)
       intervals = table%x(2:) - table%x(:n - 1)
       widest = maxloc(intervals, dim=1)
-      median = middle_value(intervals)
-      if (intervals(widest) <= gap_ratio*median) return
+      usual = median(intervals)
+      if (intervals(widest) <= gap_ratio*usual) return
       call add_mistake(mistakes, "the table has a gap from "//number_text(table%x(widest), 10)//" to "// &
-         & number_text(table%x(widest + 1), 10)//", more than ten times the usual distance of "//number_text(median, 3), &
+         & number_text(table%x(widest + 1), 10)//", more than ten times the usual distance of "//number_text(usual, 3), &
          & table%line(widest + 1), 0, 0, table%path, number_text(table%x(widest + 1))//"  "//number_text(table%y(widest + 1)))
    end subroutine check_spacing
-
-   !> Value in the middle of a list by size, by halving the range it is in.
-   pure function middle_value(list) result(middle)
-      !> The list, all positive [any unit]
-      real(wp), intent(in) :: list(:)
-      !> Its median, to a thousandth [the same unit]
-      real(wp) :: middle
-
-      !> Ends of the range that the median is in [the same unit]
-      real(wp) :: lower, upper
-
-      lower = 0.0_wp
-      upper = maxval(list)
-      do while (upper - lower > 1.0e-3_wp*upper)
-         middle = 0.5_wp*(lower + upper)
-         if (2*count(list <= middle) > size(list)) then
-            upper = middle
-         else
-            lower = middle
-         end if
-      end do
-      middle = upper
-   end function middle_value
 
 end module camroller_table_file

@@ -8,7 +8,7 @@ module camroller_ehl_file
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t
    use camroller_hdf5_attribute, only : attach_scale, describe, make_scale
-   use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, reserve_file, write_integers, &
+   use camroller_hdf5_file, only : create_group, create_integers, create_numbers, reserve_file, write_integers, &
       & write_numbers
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_output_file, only : check_open, abandon_output, number_size, object_size, output_t
@@ -234,29 +234,10 @@ contains
 
    !> Close the datasets.
    subroutine close_ehl(file)
-      !> The datasets
+      !> The solved contacts
       type(ehl_file_t), intent(inout) :: file
 
-      integer :: lobe, i
-
-      if (.not. allocated(file%lobes)) return
-      do lobe = size(file%lobes), 1, -1
-         associate (this => file%lobes(lobe))
-            if (allocated(this%series)) then
-               do i = 1, size(this%series)
-                  call close_object(this%series(i))
-               end do
-            end if
-            if (file%has_heat) call close_object(this%film_rise)
-            call close_object(this%film)
-            call close_object(this%pressure)
-            call close_object(this%places)
-            call close_object(this%nodes)
-            call close_object(this%angles)
-            call close_object(this%group)
-         end associate
-      end do
-      deallocate (file%lobes)
+      if (allocated(file%lobes)) deallocate (file%lobes)
    end subroutine close_ehl
 
    !> Values at other angles.

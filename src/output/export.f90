@@ -6,6 +6,7 @@
 module camroller_export
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use camroller_kinds, only : wp
+   use camroller_case_columns, only : measured_prefix
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
@@ -28,7 +29,7 @@ module camroller_export
    !> Forms of a table: CSV with a line of names and one of units, CSV with one line of names with units, JSON
    character(len=*), parameter :: export_formats(*) = [character(len=5) :: "csv", "plain", "json"]
    !> Group of measured values; its columns are called as in the table of cases that they come from
-   character(len=*), parameter :: measured_group = "/measured", measured_prefix = measured_group(2:)//"."
+   character(len=*), parameter :: measured_group = "/measured"
    !> Digits after the first one: 17 tell any two numbers apart
    integer, parameter :: decimals = 16
    !> Letters that are handed over at a time

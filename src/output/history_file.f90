@@ -8,7 +8,7 @@ module camroller_history_file
    use camroller_error, only : error_t
    use camroller_flexible_report, only : most_turns
    use camroller_hdf5_attribute, only : attach_scale, describe, make_scale
-   use camroller_hdf5_file, only : close_object, create_group, create_numbers, reserve_file, write_numbers
+   use camroller_hdf5_file, only : create_group, create_numbers, reserve_file, write_numbers
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_names, only : name_length
    use camroller_output_file, only : abandon_output, number_size, object_size, output_t
@@ -222,19 +222,7 @@ contains
       !> Where rows went
       type(history_file_t), intent(inout) :: self
 
-      integer :: i, kind
-
-      do kind = size(lists), 1, -1
-         associate (list => self%lists(kind))
-            if (.not. list%is_open) cycle
-            do i = size(list%columns), 1, -1
-               call close_object(list%columns(i))
-            end do
-            call close_object(list%axis)
-            call close_object(list%group)
-            list%is_open = .false.
-         end associate
-      end do
+      self%lists%is_open = .false.
    end subroutine close_history
 
 end module camroller_history_file

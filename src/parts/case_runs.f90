@@ -2,8 +2,10 @@
 !>
 !> In: what part files hold. Out: runs, few integers however many cases there are.
 module camroller_case_runs
+   use camroller_kinds, only : wp
    use camroller_number_text, only : counted, integer_text
    use camroller_part_scan, only : entry_t, index_t
+   use camroller_sorting, only : find_order
    implicit none
    private
 
@@ -108,47 +110,15 @@ contains
    end subroutine piece_of
 
    !> Sort entries by their first case; of two with the same first case the longer one is first.
-   recursive subroutine sort_entries(entries)
+   subroutine sort_entries(entries)
       !> The entries
       type(entry_t), intent(inout) :: entries(:)
 
-      type(entry_t), allocatable :: left(:), right(:)
-      integer :: half, i, j, k
+      integer, dimension(size(entries)) :: by_count, by_first
 
-      if (size(entries) < 2) return
-      half = size(entries)/2
-      allocate (left, source=entries(:half))
-      allocate (right, source=entries(half + 1:))
-      call sort_entries(left)
-      call sort_entries(right)
-      i = 1
-      j = 1
-      do k = 1, size(entries)
-         if (j > size(right)) then
-            entries(k) = left(i)
-            i = i + 1
-         else if (i > size(left)) then
-            entries(k) = right(j)
-            j = j + 1
-         else if (comes_first(right(j), left(i))) then
-            entries(k) = right(j)
-            j = j + 1
-         else
-            entries(k) = left(i)
-            i = i + 1
-         end if
-      end do
+      call find_order(-real(entries%count, wp), by_count)
+      call find_order(real(entries(by_count)%first, wp), by_first)
+      entries = entries(by_count(by_first))
    end subroutine sort_entries
-
-   !> Does an entry come before another?
-   pure function comes_first(some, other) result(verdict)
-      !> Two entries
-      type(entry_t), intent(in) :: some, other
-      !> Does the one come before the other?
-      logical :: verdict
-
-      verdict = some%first < other%first
-      if (some%first == other%first) verdict = some%count > other%count
-   end function comes_first
 
 end module camroller_case_runs

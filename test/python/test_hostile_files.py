@@ -86,7 +86,7 @@ SHAPES = {
     "more cases of a scalar": (put("summary/mean_torque_drive", numpy.zeros(CASES + 1)), SUMMARY, "does not have as many values"),
     "fewer cases of a scalar": (put("summary/status", numpy.zeros(1)), RERUN, "has fewer values than the rest"),
     "a deck of fixed length": (put("deck/text", numpy.bytes_("&case /")), RERUN, "'/deck/text' of 'x.h5' holds texts of fixed length"),
-    "a number as deck": (put("deck/text", 7), RERUN, "'/deck/text' of 'x.h5' holds texts of fixed length"),
+    "a number as deck": (put("deck/text", 7), RERUN, "'/deck/text' of 'x.h5' holds no texts"),
     "two decks": (put("deck/text", ["a", "b"]), RERUN, "'/deck/text' of 'x.h5' has 1 axes"),
     "many values of an attribute": (attribute("/", "format_version", numpy.arange(1000)), EXPORT, "'/:format_version' of 'x.h5' is not one"),
     "many texts of an attribute": (attribute("run", "options", ["a"]*1000), RERUN, "'/run:options' of 'x.h5' is not one value"),
