@@ -69,7 +69,10 @@ contains
       if (min(i, j) == 0) then
          call raise(error, kind_domain, "the torque of seals and drive is not known at "// &
             & number_text(abs(speed)*per_minute, 4)//" rev/min and "//number_text(temperature - celsius_zero, 4)// &
-            & " degC, which the table of &shaft_drag does not cover")
+            & " degC: the table of &shaft_drag covers "//number_text(drag%speed_points(1)*per_minute, 4)//" to "// &
+            & number_text(drag%speed_points(speeds)*per_minute, 4)//" rev/min and "// &
+            & number_text(minval(drag%temperature_points) - celsius_zero, 4)//" to "// &
+            & number_text(maxval(drag%temperature_points) - celsius_zero, 4)//" degC")
          return
       end if
       torque = (1.0_wp - across)*between(j) + across*between(next_j)
@@ -92,22 +95,31 @@ contains
    pure subroutine find_place(points, x, before, next, weight)
       !> The points, rising [any]
       real(wp), intent(in) :: points(:)
-      !> The place [any]
+      !> The place; one that is off an end of the table by rounding is at that end [any]
       real(wp), intent(in) :: x
       !> Number of the point before, the same as the next where there is one alone; 0 outside the table
       integer, intent(out) :: before, next
       !> Weight of the next one [-]
       real(wp), intent(out) :: weight
 
+      ! Part of an end that counts as rounding, of units that were converted and of inputs that a host interpolates [-]
+      real(wp), parameter :: rounding = 1.0e-9_wp
+      real(wp) :: place ! [any]
+
       weight = 0.0_wp
       before = 1
       next = 1
       if (size(points) == 1) return
-      before = min(count(points <= x), size(points) - 1)
-      if (x > points(size(points))) before = 0
-      if (before == 0) return
+      associate (ends => points([1, size(points)]))
+         place = min(max(x, ends(1)), ends(2))
+         if (abs(place - x) > rounding*maxval(abs(ends))) then
+            before = 0
+            return
+         end if
+      end associate
+      before = min(count(points <= place), size(points) - 1)
       next = before + 1
-      weight = (x - points(before))/(points(next) - points(before))
+      weight = (place - points(before))/(points(next) - points(before))
    end subroutine find_place
 
 end module camroller_shaft_drag

@@ -125,7 +125,7 @@ contains
       real(wp) :: before
       integer :: round
 
-      call set_pivot_forces(model, position, moments, 0.0_wp, forces)
+      call set_pivot_forces(model, position, moments, 0.0_wp, forces, 0.0_wp)
       do round = 1, most_rounds
          before = load
          friction = pivot_moment(model%joints%pivot, forces, dual_t(load, 0.0_wp), dual_t(tangential, 0.0_wp))

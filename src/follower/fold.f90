@@ -150,7 +150,7 @@ contains
       moment = finger_moment(model, position, moments)
       kept = contact_moment(model, position, moments)
       free_load = kept/position%normal_arm
-      if (has_pivot_friction(model)) call set_pivot_forces(model, position, moments, 0.0_wp, forces)
+      if (has_pivot_friction(model)) call set_pivot_forces(model, position, moments, 0.0_wp, forces, 0.0_wp)
       contact%load = free_load
       contact%film_ratio = 0.0_wp
       call prepare_contact(model, position, contact, 0.0_wp, setting)

@@ -1,7 +1,7 @@
 !> Forces and moments of the sliding joints at one cam angle: valve tip, stem in seal and guide, pivot.
 !>
 !> In: model, geometry, moments, and for the pivot the contact's forces. Out: forces, moments on the finger, each with its
-!> derivative over the cam angle at a constant cam speed.
+!> derivative over the cam angle.
 !>
 !> Frame: x from the pivot to the cam centre. The valve's axis points towards the cam, `u = (cos chi, -sin chi)`; across it, away
 !> from the pivot, `e = (sin chi, cos chi)`.
@@ -97,8 +97,8 @@ contains
       moment = moment + friction%value
    end function moment_with
 
-   !> Its derivative over the cam angle at a constant speed.
-   pure function finger_moment_slope(model, position, moments, moment_slope) result(slope)
+   !> Its derivative over the cam angle.
+   pure function finger_moment_slope(model, position, moments, moment_slope, gain) result(slope)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -107,6 +107,8 @@ contains
       type(moments_t), intent(in) :: moments
       !> Derivative of the sum of the moments [N m/rad]
       real(wp), intent(in) :: moment_slope
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
       !> Derivative [N m/rad]
       real(wp) :: slope
 
@@ -116,10 +118,10 @@ contains
 
       slope = moment_slope
       if (.not. model%is_consistent) return
-      if (allocated(model%guide_drag)) slope = slope + model%guide_drag*model%speed &
-         & *(position%lift_curvature*position%valve_arm + position%lift_slope*position%valve_arm_slope)
+      if (allocated(model%guide_drag)) slope = slope + model%guide_drag*(model%speed*(position%lift_curvature*position%valve_arm &
+         & + position%lift_slope*position%valve_arm_slope) + gain*position%lift_slope*position%valve_arm)
       if (.not. allocated(model%joints)) return
-      call set_stem(model, position, moments, axial_slope(model, position, moments, moment_slope), stem)
+      call set_stem(model, position, moments, axial_slope(model, position, moments, moment_slope, gain), stem, gain)
       friction = stem_moment(position, stem)
       slope = slope + friction%slope
    end function finger_moment_slope
@@ -187,7 +189,7 @@ contains
    end function has_pivot_friction
 
    !> What the ball's force is made of.
-   pure subroutine set_pivot_forces(model, position, moments, moment_slope, forces)
+   pure subroutine set_pivot_forces(model, position, moments, moment_slope, forces, gain)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -198,11 +200,13 @@ contains
       real(wp), intent(in) :: moment_slope
       !> What it is made of
       type(pivot_forces_t), intent(out) :: forces
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
 
       type(stem_t) :: stem
 
-      call set_stem(model, position, moments, axial_slope(model, position, moments, moment_slope), stem)
-      call place_forces(model, position, stem, forces)
+      call set_stem(model, position, moments, axial_slope(model, position, moments, moment_slope, gain), stem, gain)
+      call place_forces(model, position, stem, forces, gain)
    end subroutine set_pivot_forces
 
    !> Forces and torques of a state whose contact is solved.
@@ -285,7 +289,7 @@ contains
    end function places_on_curves
 
    !> Forces at the valve's end of the finger.
-   pure subroutine set_stem(model, position, moments, axial_slope, stem)
+   pure subroutine set_stem(model, position, moments, axial_slope, stem, gain)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -296,18 +300,35 @@ contains
       real(wp), intent(in) :: axial_slope
       !> The forces
       type(stem_t), intent(out) :: stem
+      !> Change of the cam's speed with the cam angle; absent: none [rad/s/rad]
+      real(wp), intent(in), optional :: gain
 
       type(stem_motion_t) :: motion
+      type(dual_t) :: speed ! of the cam [rad/s]
 
+      speed = cam_speed(model, gain)
       motion%lift = dual_t(position%lift, position%lift_slope)
-      motion%valve_speed = model%speed*dual_t(position%lift_slope, position%lift_curvature)
-      motion%finger_speed = model%speed*dual_t(position%finger_slope, position%finger_curvature)
+      motion%valve_speed = speed*dual_t(position%lift_slope, position%lift_curvature)
+      motion%finger_speed = speed*dual_t(position%finger_slope, position%finger_curvature)
       motion%centre_height = model%linkage%b*model%linkage%base_cosine - motion%lift
       motion%arm = dual_t(position%valve_arm, position%valve_arm_slope)
       motion%axial_force = dual_t(axial_force(position, moments), axial_slope)
       if (allocated(model%guide_drag)) motion%axial_force = motion%axial_force + model%guide_drag*motion%valve_speed
       call find_stem_forces(model%joints%tip, model%joints%seal, model%joints%side, motion, stem)
    end subroutine set_stem
+
+   !> Speed of the cam with its change over the cam angle.
+   pure function cam_speed(model, gain) result(speed)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The change; absent: none [rad/s/rad]
+      real(wp), intent(in), optional :: gain
+      !> The speed [rad/s]
+      type(dual_t) :: speed
+
+      speed%value = model%speed
+      if (present(gain)) speed%slope = gain
+   end function cam_speed
 
    !> Force that spring, seat, valve and gas need at the tip.
    pure function axial_force(position, moments) result(force)
@@ -322,7 +343,7 @@ contains
    end function axial_force
 
    !> Its derivative over the cam angle, from that of the sum of the moments less the finger's.
-   pure function axial_slope(model, position, moments, moment_slope) result(slope)
+   pure function axial_slope(model, position, moments, moment_slope, gain) result(slope)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -331,13 +352,36 @@ contains
       type(moments_t), intent(in) :: moments
       !> Derivative of their sum over the cam angle [N m/rad]
       real(wp), intent(in) :: moment_slope
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
       !> Derivative [N/rad]
       real(wp) :: slope
 
-      slope = (moment_slope - model%train%finger_inertia*model%speed*(model%speed*position%finger_jerk &
-         & + model%speed_slope*position%finger_curvature) - axial_force(position, moments)*position%valve_arm_slope) &
-         & /position%valve_arm
+      ! Angular acceleration of the finger [rad/s^2]
+      type(dual_t) :: acceleration
+
+      acceleration = finger_acceleration(model, position, gain)
+      slope = (moment_slope - model%train%finger_inertia*acceleration%slope &
+         & - axial_force(position, moments)*position%valve_arm_slope)/position%valve_arm
    end function axial_slope
+
+   !> Angular acceleration of the finger.
+   pure function finger_acceleration(model, position, gain) result(acceleration)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Change of the cam's speed with the cam angle; absent: none [rad/s/rad]
+      real(wp), intent(in), optional :: gain
+      !> Acceleration [rad/s^2]
+      type(dual_t) :: acceleration
+
+      type(dual_t) :: speed ! of the cam [rad/s]
+
+      speed = cam_speed(model, gain)
+      acceleration = speed*(speed*dual_t(position%finger_curvature, position%finger_jerk) &
+         & + model%speed_slope*dual_t(position%finger_slope, position%finger_curvature))
+   end function finger_acceleration
 
    !> Moment of friction at tip and stem, positive where it presses the roller on the cam.
    pure function stem_moment(position, stem) result(moment)
@@ -353,7 +397,7 @@ contains
    end function stem_moment
 
    !> Forces on the finger but for load and traction, and the directions of these.
-   pure subroutine place_forces(model, position, stem, forces)
+   pure subroutine place_forces(model, position, stem, forces, gain)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -362,6 +406,8 @@ contains
       type(stem_t), intent(in) :: stem
       !> What the ball's force is made of
       type(pivot_forces_t), intent(out) :: forces
+      !> Change of the cam's speed with the cam angle; absent: none [rad/s/rad]
+      real(wp), intent(in), optional :: gain
 
       ! Directions along and across the roller arm [-]; angular acceleration of the finger [rad/s^2]
       type(dual_t) :: along(2), across(2), acceleration
@@ -377,9 +423,8 @@ contains
          & - along*dual_t(position%tangent_arm/length, position%tangent_arm_slope/length)
       forces%tangent = model%linkage%sense*(across*dual_t(position%tangent_arm/length, position%tangent_arm_slope/length) &
          & + along*dual_t(position%normal_arm/length, position%normal_arm_slope/length))
-      forces%finger_speed = model%speed*dual_t(position%finger_slope, position%finger_curvature)
-      acceleration = model%speed*(model%speed*dual_t(position%finger_curvature, position%finger_jerk) &
-         & + model%speed_slope*dual_t(position%finger_slope, position%finger_curvature))
+      forces%finger_speed = cam_speed(model, gain)*dual_t(position%finger_slope, position%finger_curvature)
+      acceleration = finger_acceleration(model, position, gain)
       associate (chi_cosine => model%linkage%axis_cosine, chi_sine => model%linkage%axis_sine)
          forces%rest = [chi_sine*stem%tip_friction - chi_cosine*stem%tip_force, &
             & chi_cosine*stem%tip_friction + chi_sine*stem%tip_force]

@@ -12,7 +12,7 @@ module camroller_spin
    use camroller_ramp, only : follow_ramp
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_contact_forces, only : contact_t, bearing_slope, has_curved_bearing, has_oil_drag, oil_drag_slope
+   use camroller_contact_forces, only : contact_t, bearing_slope, has_oil_drag, oil_drag_slope
    use camroller_state, only : evaluate_loading, evaluate_spin
    use camroller_spin_slopes, only : spin_slopes_t, evaluate_spin_slopes
    implicit none
@@ -236,11 +236,11 @@ contains
 
       counters%evaluations = counters%evaluations + 1
       counters%jacobians = counters%jacobians + 1
-      has_difference = needs_difference(self%model)
+      has_difference = self%model%ramp%is_moving .and. abs(self%model%ramp%temperature_slope) > 0.0_wp
       accuracy = self%accuracy
       if (has_difference) accuracy = min(accuracy, difference_accuracy)
       gain = 0.0_wp
-      if (self%model%ramp%is_moving .and. .not. has_difference) gain = self%model%speed_slope
+      if (self%model%ramp%is_moving) gain = self%model%speed_slope
       call start_from(self%nearby, time, state(1), start)
       call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
@@ -261,21 +261,8 @@ contains
          & *self%model%roller_radius*factor/self%model%roller_inertia
       linear%clearance = huge(1.0_wp)
       if (slopes%contact%is_touching) linear%clearance = 2.0_wp*slopes%contact%entrainment_speed
-      if (has_difference) call add_inputs(self, time, state(1), position, slopes%contact, &
-         & linear, counters, status)
+      if (has_difference) call add_temperature(self, time, state(1), position, slopes%contact, linear, counters, status)
    end subroutine linearise
-
-   !> Does what changing inputs add to the derivative take a difference of two solutions? That of the speed alone has a closed form
-   !> where the torque of the roller's bearing is in proportion to its load and no joint has friction.
-   pure function needs_difference(model) result(needs)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Does it?
-      logical :: needs
-
-      needs = model%ramp%is_moving .and. (abs(model%ramp%temperature_slope) > 0.0_wp .or. allocated(model%drag) &
-         & .or. has_curved_bearing(model) .or. allocated(model%joints))
-   end function needs_difference
 
    !> Keep a contact that has been solved.
    pure subroutine remember(nearby, angle, sliding_speed, slopes)
@@ -316,8 +303,8 @@ contains
       start%film_ratio = start%film_ratio + change(3)
    end subroutine start_from
 
-   !> Add what changing inputs do to the derivative over the cam angle: a difference at one position.
-   subroutine add_inputs(self, time, sliding_speed, position, nearby, linear, counters, status)
+   !> Add what a changing temperature of the oil does to the derivative over the cam angle: a difference at one position and speed.
+   subroutine add_temperature(self, time, sliding_speed, position, nearby, linear, counters, status)
       !> The problem, with its model at the inputs of the angle
       class(spin_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
@@ -328,14 +315,14 @@ contains
       type(position_t), intent(in) :: position
       !> Contact there, to start from
       type(contact_t), intent(in) :: nearby
-      !> Rate with its derivatives; out: with the inputs'
+      !> Rate with its derivatives; out: with the temperature's
       type(linear_t), intent(inout) :: linear
       !> Work done
       type(counters_t), intent(inout) :: counters
       !> 0 fine, positive: try a smaller step, negative: give up
       integer, intent(out) :: status
 
-      ! Angle over which inputs change for the difference [rad]: their part in the rate is smooth, and solutions hold round-off
+      ! Angle over which it changes for the difference [rad]: its part in the rate is smooth, and solutions hold round-off
       real(wp), parameter :: increment = 1.0e-5_wp
       type(moments_t) :: moments
       type(position_t) :: same
@@ -344,14 +331,14 @@ contains
       real(wp) :: force, acceleration, rate
 
       counters%evaluations = counters%evaluations + 1
-      call follow_ramp(self%model, time + increment)
+      call follow_ramp(self%model, time, time + increment)
       call evaluate_loading(self%model, time, same, force, moments, status)
       if (status == 0) call evaluate_spin(self%model, position, moments, sliding_speed, contact, acceleration, status, &
          & difference_accuracy, self%mobilised, nearby)
       rate = slip_rate(self%model, position, acceleration)
       if (status == 0) linear%time_slope(1) = linear%time_slope(1) + (rate - linear%rate(1))/increment
       call follow_ramp(self%model, time)
-   end subroutine add_inputs
+   end subroutine add_temperature
 
    !> From the sliding speed to that without entrainment, where the film collapses and friction may hold the roller.
    subroutine get_clearance(self, time, state, clearance)

@@ -13,8 +13,8 @@ module camroller_spin_slopes
    use camroller_dual, only : dual_t
    use camroller_joint_forces, only : finger_moment, finger_moment_slope, has_pivot_friction, set_pivot_forces
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
-   use camroller_contact_forces, only : contact_t, motion_t, slopes_t, set_speeds, follow_contact, has_oil_drag, &
-      & oil_drag_slope
+   use camroller_contact_forces, only : contact_t, motion_t, slopes_t, bearing_by_reversal, set_speeds, follow_contact, &
+      & has_oil_drag, oil_drag_slope
    use camroller_roller, only : spin_acceleration
    implicit none
    private
@@ -94,7 +94,7 @@ contains
          if (status /= 0) return
          slopes%acceleration = acceleration_of(model, contact%traction, contact%rolling_resistance, contact%bearing_torque)
          if (.not. contact%is_touching) then
-            if (has_oil_drag(model)) call follow_drag(model, position, contact, speed_slope, angle_slope)
+            if (has_oil_drag(model)) call follow_drag(model, position, contact, basis, gain, speed_slope, angle_slope)
             return
          end if
 
@@ -102,9 +102,10 @@ contains
          changes%by_speed = follow_contact(model, basis%setting, contact, basis%parts, speed_motion(model, contact))
          changes%by_angle = follow_contact(model, basis%setting, contact, basis%parts, angle_motion(model, position, contact, &
             & gain))
+         changes%by_angle%bearing_torque = changes%by_angle%bearing_torque + by_reversal(model, contact, basis, gain)
          slope = slope_of_moments(model, angle, position, gain)
          if (model%is_consistent) then
-            call follow_balance(model, position, moments, contact, slope, changes, load_by_speed, load_by_angle)
+            call follow_balance(model, position, moments, contact, slope, gain, changes, load_by_speed, load_by_angle)
          else
             load_by_speed = 0.0_wp
             load_by_angle = slope/finger_moment(model, position, moments)
@@ -123,13 +124,17 @@ contains
    end subroutine evaluate_spin_slopes
 
    !> Derivatives of the acceleration of a roller without contact, which the drag of its bearing alone makes.
-   pure subroutine follow_drag(model, position, contact, speed_slope, angle_slope)
+   pure subroutine follow_drag(model, position, contact, basis, gain, speed_slope, angle_slope)
       !> The model, with drag
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
       !> State of the contact
       type(contact_t), intent(in) :: contact
+      !> What its solution leaves behind
+      type(contact_basis_t), intent(in) :: basis
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
       !> Derivatives over the sliding speed [rad/s/m] and, at constant sliding speed, over the cam angle [1/s^2]
       real(wp), intent(out) :: speed_slope, angle_slope
 
@@ -139,10 +144,28 @@ contains
 
       slope = oil_drag_slope(model, contact%relative_spin)
       by_speed = speed_motion(model, contact)
-      by_angle = angle_motion(model, position, contact, 0.0_wp)
+      by_angle = angle_motion(model, position, contact, gain)
       speed_slope = acceleration_of(model, 0.0_wp, 0.0_wp, slope*by_speed%relative_spin)
-      angle_slope = acceleration_of(model, 0.0_wp, 0.0_wp, slope*by_angle%relative_spin)
+      angle_slope = acceleration_of(model, 0.0_wp, 0.0_wp, slope*by_angle%relative_spin &
+         & + by_reversal(model, contact, basis, gain))
    end subroutine follow_drag
+
+   !> Change of the bearing's torque with that of the spin over which it reverses, which goes with the cam's speed.
+   pure function by_reversal(model, contact, basis, gain) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> What its solution leaves behind
+      type(contact_basis_t), intent(in) :: basis
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
+      !> Derivative over the cam angle [N m/rad]
+      real(wp) :: slope
+
+      slope = 0.0_wp
+      if (abs(gain) > 0.0_wp) slope = gain/model%speed*bearing_by_reversal(model, contact, basis%parts)
+   end function by_reversal
 
    !> What a change of the sliding speed moves at constant load.
    pure function speed_motion(model, contact) result(motion)
@@ -158,8 +181,7 @@ contains
       if (abs(contact%entrainment_speed) > 0.0_wp) motion%entrainment = -0.5_wp/contact%entrainment_speed
    end function speed_motion
 
-   !> Derivative of the sum of the moments over the cam angle. A cam that gains speed adds that of the masses, and where the
-   !> bookkeeping is closed that of the drag of the guide.
+   !> Derivative of the sum of the moments over the cam angle. A cam that gains speed adds that of the masses.
    pure function slope_of_moments(model, angle, position, gain) result(slope)
       !> The model
       type(model_t), intent(in) :: model
@@ -185,10 +207,8 @@ contains
       if (abs(model%speed_slope) > 0.0_wp) then
          slope = slope + acceleration_slope(model%train, position, model%speed*model%speed_slope)
       end if
-      if (.not. abs(gain) > 0.0_wp) return
-      slope = slope + gain*speed_slope_of_moments(model%train, position, model%speed, model%speed_slope)
-      if (allocated(model%guide_drag) .and. model%is_consistent) slope = slope &
-         & + gain*model%guide_drag*position%lift_slope*position%valve_arm
+      if (abs(gain) > 0.0_wp) slope = slope &
+         & + gain*speed_slope_of_moments(model%train, position, model%speed, model%speed_slope)
    end function slope_of_moments
 
    !> What a change of the cam angle moves at constant load and sliding speed.
@@ -216,14 +236,12 @@ contains
       if (abs(contact%entrainment_speed) > 0.0_wp) then
          motion%entrainment = motion%entrainment + gain*position%surface_travel/contact%entrainment_speed
       end if
-      ! The spin over which the bearing's torque reverses goes with the cam's speed
       motion%relative_spin = motion%relative_spin + gain*(merge(position%rolling_travel, position%surface_travel, &
-         & model%has_exact_spin)/model%roller_radius - model%linkage%sense*position%finger_slope &
-         & - contact%relative_spin/model%speed)
+         & model%has_exact_spin)/model%roller_radius - model%linkage%sense*position%finger_slope)
    end function angle_motion
 
    !> How the load follows through `W h_W + sense (T' h_t + T_B) = moment + M_pivot`.
-   pure subroutine follow_balance(model, position, moments, contact, moment_slope, changes, load_by_speed, load_by_angle)
+   pure subroutine follow_balance(model, position, moments, contact, moment_slope, gain, changes, load_by_speed, load_by_angle)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -234,6 +252,8 @@ contains
       type(contact_t), intent(in) :: contact
       !> Derivative of their sum over the cam angle [N m/rad]
       real(wp), intent(in) :: moment_slope
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
       !> Changes of forces and torque
       type(changes_t), intent(in) :: changes
       !> Change of the load, its logarithm, over the sliding speed [s/m] and over the cam angle [1/rad]
@@ -247,14 +267,14 @@ contains
          & + changes%by_speed%bearing_torque)
       moment%by_angle = model%linkage%sense*(changes%by_angle%tangential_force*position%tangent_arm &
          & + contact%tangential_force*position%tangent_arm_slope + changes%by_angle%bearing_torque)
-      if (has_pivot_friction(model)) call follow_pivot(model, position, moments, contact, moment_slope, changes, moment)
+      if (has_pivot_friction(model)) call follow_pivot(model, position, moments, contact, moment_slope, gain, changes, moment)
       load_by_speed = -moment%by_speed/moment%by_load
-      load_by_angle = (finger_moment_slope(model, position, moments, moment_slope) - contact%load*position%normal_arm_slope &
+      load_by_angle = (finger_moment_slope(model, position, moments, moment_slope, gain) - contact%load*position%normal_arm_slope &
          & - moment%by_angle)/moment%by_load
    end subroutine follow_balance
 
    !> Take the friction of the pivot from the changes of the moment that the contact makes.
-   pure subroutine follow_pivot(model, position, moments, contact, moment_slope, changes, moment)
+   pure subroutine follow_pivot(model, position, moments, contact, moment_slope, gain, changes, moment)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -265,6 +285,8 @@ contains
       type(contact_t), intent(in) :: contact
       !> Derivative of their sum over the cam angle [N m/rad]
       real(wp), intent(in) :: moment_slope
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
       !> Changes of forces and torque
       type(changes_t), intent(in) :: changes
       !> Changes of the moment that the contact makes; out: less the friction of the pivot
@@ -274,7 +296,7 @@ contains
       ! Friction of the pivot [N m]
       type(dual_t) :: friction
 
-      call set_pivot_forces(model, position, moments, moment_slope, forces)
+      call set_pivot_forces(model, position, moments, moment_slope, forces, gain)
       friction = pivot_moment(model%joints%pivot, forces, dual_t(contact%load, 0.0_wp), &
          & dual_t(contact%tangential_force, changes%by_angle%tangential_force))
       moment%by_angle = moment%by_angle - friction%slope

@@ -9,6 +9,7 @@ module camroller_step_inputs
    use camroller_kinds, only : wp
    use camroller_lubricant, only : get_oil, oil_t
    use camroller_model, only : model_t
+   use camroller_number_text, only : number_text
    implicit none
    private
 
@@ -63,6 +64,8 @@ contains
       !> Usage, deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
+      ! Temperature that no oil in an engine has: degrees Celsius in the place of kelvins are below it [K]
+      real(wp), parameter :: coldest = 150.0_wp
       type(oil_t) :: oil
       ! At both ends [K]
       real(wp) :: temperatures(2)
@@ -74,6 +77,9 @@ contains
             & "stops, end the step before and call halt")
       else if (.not. all(is_within(temperatures, above_zero, huge(1.0_wp)))) then
          call raise(error, kind_usage, "advance: the oil temperature must be above 0 K and finite at both ends of a step")
+      else if (any(temperatures < coldest)) then
+         call raise(error, kind_usage, "advance: an oil temperature of "//number_text(minval(temperatures), 6)//" K is below "// &
+            & "what any oil in an engine has; it is given in kelvin, 363.15 for 90 degC")
       else if (start%has_pressure .neqv. finish%has_pressure) then
          call raise(error, kind_usage, "advance: the gas pressure must be given at both ends of a step or at none")
       else if (.not. start%has_pressure .and. any(is_given([start%gas_pressure, finish%gas_pressure]))) then

@@ -143,6 +143,8 @@ contains
       if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, nan, "temperature")
       if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, infinity, "temperature")
       if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, 0.0_wp, "temperature")
+      ! degrees Celsius
+      if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, 90.0_wp, "kelvin")
       if (allocated(error)) return
       call advance(simulation, 1.1_wp, 31.0_wp, 330.0_wp, outcome, failure)
       call check(error, .not. allocated(failure), "the follower is of no use after a refusal")
@@ -164,7 +166,7 @@ contains
 
    end subroutine test_refusal
 
-   !> Every kind of failure: refused angle, refused operating point, oil outside its law, and an integration that gets through the
+   !> Every kind of failure: refused angle, refused speed, refused temperature, and an integration that gets through the
    !> base circle, the first of the two pieces that the step is cut into, and not through the event.
    subroutine test_failed_step(error)
       type(error_type), allocatable, intent(out) :: error
@@ -175,8 +177,8 @@ contains
          & 4.8_wp, 40.0_wp, 100.0_wp, &
          & 9.2_wp, 1.0e10_wp, 330.0_wp], [3, 4])
       ! What each is refused with
-      integer, parameter :: kinds(4) = [kind_usage, kind_usage, kind_domain, kind_convergence]
-      character(len=*), parameter :: words(4) = [character(len=9) :: "angle", "speed", "Vogel", "step size"]
+      integer, parameter :: kinds(4) = [kind_usage, kind_usage, kind_usage, kind_convergence]
+      character(len=*), parameter :: words(4) = [character(len=9) :: "angle", "speed", "kelvin", "step size"]
       type(case_t) :: the_case
       type(simulation_t) :: simulation, other
       type(outcome_t) :: outcome, expected
