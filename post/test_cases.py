@@ -277,6 +277,21 @@ def test_a_grid_has_a_panel_for_each_value_of_the_second_key(tmp_path, name, cou
     assert len(panels) == count and all(len(curves(axes)) == 3 for axes in panels)
 
 
+def test_upright_values_of_short_bars_stay_within_the_axes(tmp_path):
+    """A small negative slip between large ones."""
+    path = write_result(tmp_path / "grid.h5", oils=(25.0, 60.0, 95.0))
+    with h5py.File(path, "a") as file:
+        file["summary/mean_slip_ratio"][...] = [0.144, 0.293, 0.2, 0.31, -0.00112, 0.223, np.nan, 0.0401, -0.00456]
+    for name in ("mean_slip", "overview"):
+        figure = draw(name, Layout([read_result(path)]))
+        figure.canvas.draw()
+        axes = next(axes for part in (figure, *figure.subfigs) for axes in part.axes if axes.get_ylabel() == "mean slip ratio [%]")
+        texts = [text for text in axes.texts if text.get_rotation() == 90]
+        assert len(texts) == 9 and {"-0.112", "-0.456"} <= {text.get_text() for text in texts}
+        for box in (text.get_window_extent() for text in texts):
+            assert axes.bbox.y0 <= box.y0 and box.y1 <= axes.bbox.y1, name
+
+
 def test_bars_of_a_grid_have_values_that_do_not_overlap(tmp_path):
     """Values stand above the bars where they fit beside each other, else upright."""
     for speeds, turn in (((300.0, 900.0), 0.0), (tuple(np.linspace(310, 890, 12)), 90.0)):
