@@ -48,7 +48,9 @@ def test_units_of_other_dimensions_are_not_mixed():
     ("operating_point.speed_rpm", "rpm", "speed"), ("operating_point.oil_temperature_degC", "degC", "oil temperature"),
     ("film.law", "1", "film law"), ("roller.radius_mm", "mm", "roller radius"), ("surface.cam_roughness_um", "um", "cam roughness"),
     ("spring.stiffness_N_m", "N/m", "spring stiffness"), ("lubricant.thermal_expansion_per_K", "1/K", "thermal expansion"),
-    ("lift.opening_half_angle_deg", "degree", "opening half angle"),
+    ("lift.opening_half_angle_deg", "degree", "opening half angle"), ("wear.cam_rate_mm3_N_m", "mm3/(N m)", "cam rate"),
+    ("heat.oil_conductivity_W_m_K", "W/(m K)", "oil conductivity"),
+    ("bearing_heat.heat_capacity_J_kg_K", "J/(kg K)", "heat capacity"),
     ("asperity.roughness_product", "1", "asperity roughness product")])
 def test_keys_in_words(key, unit, words):
     assert key_words(key, unit) == words

@@ -73,7 +73,7 @@ def with_unit(words, unit):
 def bare_name(name, unit):
     """Name of a deck key without the unit that it ends with: `stiffness_N_m` is `stiffness`."""
     last = name.rpartition("_")[2]
-    spelled = {"degree": "deg"}.get(unit, unit).replace("1/", "per_").replace("/", "_").replace(" ", "_")
+    spelled = {"degree": "deg"}.get(unit, unit).replace("1/", "per_").translate(str.maketrans("/ ", "__", "()"))
     for ending in (spelled, last if last in WORDS else ""):
         if ending and name.endswith("_" + ending):
             return name[:-len(ending) - 1]
