@@ -442,13 +442,30 @@ def test_torques_of_a_shaft_whose_other_cams_are_at_work_are_shown_for_the_whole
     assert event_window(layout, ["contact_load"]) == window
     figure = draw("overview", layout)
     assert {axes.get_xlim() for axes in figure.subfigs[0].axes} == {(0.0, 360.0)}
-    assert "torques of all 2 cams" in title(figure)
+    assert "torques of all 2 cams, all else of the first cam" in title(figure)
+    assert title(draw("mean_torque", layout)).endswith("torques of all 2 cams")
     with h5py.File(path, "a") as file:
         file["deck/values/engine.camshafts"] = 2
         file["deck/values/engine.given_speed"] = "crankshaft"
         file["summary/crank_turns"] = np.full(9, 2.0)
     layout = Layout([read_result(path)])
-    assert "torques of 2 camshafts with 2 cams each" in title(draw("overview", layout))
+    assert "torques of 2 camshafts with 2 cams each, all else of" in title(draw("overview", layout))
+
+
+@pytest.mark.parametrize("camshafts, words", [(1, "of the first cam of 3 cams"), (2, "of the first cam of 2 camshafts with 3 cams each")])
+def test_a_figure_without_a_torque_of_the_shaft_names_none(tmp_path, camshafts, words):
+    """Friction of the follower over hours of running is that of the first cam's, as load, slip and loads along its roller are."""
+    path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
+    with h5py.File(path, "a") as file:
+        file["deck/values/cam_bearings.cam_positions_mm"] = "20, 40, 60"
+        file["deck/values/engine.camshafts"] = camshafts
+    layout = Layout([read_result(path)])
+    for name in ("running_in", "roller", "load", "mean_slip", "dampers", "turns"):
+        shown = title(draw(name, layout)).replace("\n", " ")
+        assert words in shown and "torque" not in shown, name
+    for name in ("friction_torque", "drive_torque", "friction_sources", "mean_torque"):
+        shown = title(draw(name, layout)).replace("\n", " ")
+        assert "torques of " in shown and "first" not in shown, name
 
 
 def test_torques_of_an_engine_are_over_the_crank_angle_too(tmp_path):

@@ -28,7 +28,7 @@ def test_rounding_up_adds_no_digit(value, text):
 @pytest.mark.parametrize("name, unit, values, expected", [
     ("contact_loss_speed", "rad s-1", [307.58], ("rev/min", 30.0 / np.pi)),
     ("max_roller_spin", "rad s-1", [94.7], ("rev/min", 30.0 / np.pi)),
-    ("min_film", "m", [4.7e-7, 1e-8], ("um", 1e6)), ("lift", "m", [9.5e-3], ("mm", 1e3)), ("area", "m2", [4.2e-10], ("um2", 1e12)),
+    ("min_film", "m", [4.7e-7, 1e-8], ("um", 1e6)), ("depth", "m", [4e-12], ("pm", 1e12)), ("lift", "m", [9.5e-3], ("mm", 1e3)), ("area", "m2", [4.2e-10], ("um2", 1e12)),
     ("pressure", "Pa", [6.5e8], ("GPa", 1e-9)), ("torque", "N m", [0.0763], ("N mm", 1e3)), ("torque", "N m", [5.1], ("N m", 1.0)),
     ("slip_ratio", "1", [0.3], ("%", 100.0)), ("lost_contact_share", "1", [0.1], ("%", 100.0)), ("error", "1", [1e-5], ("1", 1.0)),
     ("angle", "deg", [135.0], ("deg", 1.0)), ("load", "N", [0.0], ("N", 1.0)), ("load", "N", [np.nan, 764.0], ("N", 1.0)),

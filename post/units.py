@@ -8,7 +8,7 @@ import numpy as np
 SAME = {"m s-1": "m/s", "m s-2": "m/s2", "N m-1": "N/m", "rad s-1": "rad/s", "-": "1", "": "1", "N*m": "N m", "N.m": "N m", "degree": "deg"}
 # Unit of a file: units that it is shown in, the small ones first, each with how many of them one of the file's is
 SHOWN = {
-    "m": (("nm", 1e9), ("um", 1e6), ("mm", 1e3), ("m", 1.0)),
+    "m": (("pm", 1e12), ("nm", 1e9), ("um", 1e6), ("mm", 1e3), ("m", 1.0)),
     "m2": (("um2", 1e12), ("mm2", 1e6), ("m2", 1.0)),
     "m/s": (("um/s", 1e6), ("mm/s", 1e3), ("m/s", 1.0)),
     "rad/s": (("rev/min", 30.0 / np.pi),),
