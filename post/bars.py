@@ -17,6 +17,7 @@ from units import number
 MOST_BARS = 40
 CHARACTER = 0.066  # width of a small digit [inch]
 AXES_PART = 0.85  # of the figure's width
+AXES_HEIGHT = 0.55  # of the figure's height, at least
 FILE_HATCHES = ["", "////", "....", "xxxx"]
 LONGEST_TURNED = 8  # characters of a value that may stand upright below its bar
 GAP = 0.7  # between groups, in bars
@@ -172,12 +173,29 @@ def _numbers(axes, layout, bars, width):
         turn = 0 if CHARACTER * max(map(len, texts), default=0) <= room or len(bars) == 1 else 90
         if turn and room < 1.5 * CHARACTER:
             return
+        if turn:
+            axes.set_ylim(_room_for(axes, [(*_end(value), text) for (_, value), text in zip(bars, texts)]))
     for (position, value), text in zip(bars, texts):
-        end, side = (value, 1 if value >= 0.0 else -1) if np.isfinite(value) else (0.0, 1)
+        end, side = _end(value)
         place, shift = ((end, position), (2 * side, 0)) if layout.is_list else ((position, end), (0, 2 * side))
         across, upright = ("left" if side > 0 else "right"), ("bottom" if side > 0 else "top")
         axes.annotate(text, place, shift, textcoords="offset points", fontsize="small", rotation=turn,
                       ha=across if layout.is_list else "center", va="center" if layout.is_list else upright)
+
+
+def _end(value):
+    """End of a bar where its number stands, and the number's side: 1 above, -1 below."""
+    return (value, 1 if value >= 0.0 else -1) if np.isfinite(value) else (0.0, 1)
+
+
+def _room_for(axes, numbers):
+    """Range of the values in which turned numbers at these ends, on these sides, do not go beyond the axes."""
+    height = AXES_HEIGHT * axes.figure.bbox.height / axes.figure.dpi
+    low, high = axes.get_ylim()
+    for _ in range(20):  # the longer the range, the more of it has the length of a number
+        reached = [end + side * CHARACTER * (len(text) + 1) / height * (high - low) for end, side, text in numbers]
+        low, high = min(low, *reached), max(high, *reached)
+    return low, high
 
 
 def _inches(axes):

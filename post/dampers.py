@@ -51,7 +51,7 @@ def dampers_figure(layout, _whole_cycle=None):
     figure.axes[0].set_yticks(range(len(lost)), lost)
     figure.axes[0].set_ylim(len(lost) - 0.5, -0.5)
     head(figure, layout, "energy lost in a turn by damper", legend,
-         [*layout.shown_words(layout.shown_colours(), panels), *cut])
+         [*layout.shown_words(layout.shown_colours(), panels), *cut], [name for name, _ in DAMPERS])
     return figure
 
 

@@ -13,7 +13,7 @@ from bars import MOST_BARS, both_bars, file_handles, shown_in_bars, slip_bars, t
 from dampers import dampers_figure
 from layout import line_style, wrapped
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
-                   legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis, wrap_labels)
+                   legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis, suited, wrap_labels)
 from quantities import (CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, source_words,
                         values_of)
 from roller import roller_figure
@@ -24,6 +24,7 @@ from units import unit_words
 MOST_COLUMNS = 4  # of the overview
 BARS_WIDTH = 7.5  # of a bar chart as a figure of its own [inch]
 TITLE = 40  # characters of a panel's title
+MEANS = {slip_bars: ["mean_slip_ratio"], torque_bars: [name for name, *_ in SOURCES]}  # that a bar chart shows
 
 
 def draw(name, layout, whole_cycle=None):
@@ -35,6 +36,7 @@ def curve_figure(curve, layout, whole_cycle):
     """One quantity over the cam angle, a panel for each value of the second swept key."""
     need_series(layout, curve.series)
     layout.refuse_too_many()
+    curve = suited(layout, curve)
     same = same_in_all_panels(layout, curve)
     panels = layout.panels[:1] if same else layout.shown_panels(MOST_PANELS)
     columns = min(len(panels), 3)
@@ -58,7 +60,8 @@ def curve_figure(curve, layout, whole_cycle):
         if place % columns == 0:
             axes.set_ylabel(f"{curve.title} [{unit_words(curve.unit)}]")
     title = curve.title + (f", the same at each {layout.panel_words()}" if same else "")
-    head(figure, layout, title, legend, layout.shown_words(shown[0], layout.panels if same else panels, shown[2]) + layout.turn_words())
+    head(figure, layout, title, legend, layout.shown_words(shown[0], layout.panels if same else panels, shown[2]) + layout.turn_words(),
+         [curve.series])
     return figure
 
 
@@ -109,7 +112,7 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
                         (min(pair[0] for pair in known), max(pair[1] for pair in known)) if known else None)
     for axes in grid[len(places):]:
         axes.remove()
-    head(figure, layout, title, legend, layout.shown_words(*shown) + layout.turn_words())
+    head(figure, layout, title, legend, layout.shown_words(*shown) + layout.turn_words(), shown[2])
     return figure
 
 
@@ -153,7 +156,8 @@ def overview_figure(layout, wanted, parts, needed=()):
     figure = Figure(figsize=(width, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
     _overview_curves(upper, layout, curves, panels, (rows, columns))
-    head(upper, layout, "", legend, _left_out(layout, layout.shown_words(*shown), bars) + layout.turn_words())
+    head(upper, layout, "", legend, _left_out(layout, layout.shown_words(*shown), bars) + layout.turn_words(),
+         shown[2] + [name for part in bars for name in MEANS[part]])
     if layout.is_list and len(bars) > 1 and len(layout.files) == 1:
         both_bars(lower, layout)
         return figure
@@ -204,8 +208,7 @@ def _overview_curves(figure, layout, curves, panels, shape):
 
 
 def _has_summary(layout, part):
-    names = {slip_bars: ["mean_slip_ratio"], torque_bars: [name for name, *_ in SOURCES]}[part]
-    return any(name in layout.results[number].summary for number in layout.files for name in names)
+    return any(name in layout.results[number].summary for number in layout.files for name in MEANS[part])
 
 
 def bars_figure(part, title, layout):
@@ -219,7 +222,7 @@ def bars_figure(part, title, layout):
         height += legend_height((wrap_labels(file_handles(layout), BARS_WIDTH), None), BARS_WIDTH)
     figure = Figure(figsize=(BARS_WIDTH, height), layout="constrained")
     part(figure, layout)
-    head(figure, layout, title, ([], None), _left_out_of_bars(layout))
+    head(figure, layout, title, ([], None), _left_out_of_bars(layout), MEANS[part])
     return figure
 
 

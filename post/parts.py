@@ -1,5 +1,6 @@
 """Parts that the figures share: the cam angle axis, the values axis, curves, legend and heading."""
 
+from dataclasses import replace
 import textwrap
 
 from matplotlib.lines import Line2D
@@ -7,6 +8,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator, NullFo
 import numpy as np
 
 from quantities import curve_of
+from units import fitting_unit
 
 NOSE = 180.0  # cam angle of full lift [deg]
 MARGIN = 30.0  # shown on each side of the event [deg]
@@ -16,6 +18,7 @@ CHARACTERS = 11.0  # of a legend in an inch
 SAMPLE = 7.0  # characters that have room in the place of a line sample and the distance to the next column
 LEAST_TITLE = 24  # characters of a line of a file's title above its entries
 BUSY = 0.2  # part of a torque's range that is reached outside of the first cam's event where other cams are at work there
+WIDE = 100.0  # largest over smallest value of a quantity from which on its axis is logarithmic
 ALIKE = 10.0  # panels whose largest values differ by more than this have axes of their own
 
 
@@ -125,7 +128,7 @@ def set_values_axis(axes, curve, limits):
     """Range of the upright axis with a little room; logarithmic only where the values differ much and none is zero or negative."""
     if limits is None:
         return
-    low, high = limits[0], max(limits[1], curve.least_top)
+    low, high = max(limits[0], curve.floor) if curve.floor > 0.0 else limits[0], max(limits[1], curve.least_top)
     if curve.least_top > 0.0:  # a share: from nothing to all
         low = min(low, 0.0)
     if curve.scale == "log" and low > 0.0 and high > 3.0 * low:
@@ -142,9 +145,28 @@ def mark_values(axes, curve):
             axes.axhline(value, color="0.45", linewidth=0.8, linestyle=(0, (5, 3)), zorder=0.9)  # on a line of the grid, too
 
 
+def least_shown(tops):
+    """Where the axis of cases with these largest values ends below: at zero, or logarithmic far below the smallest of them where they differ
+    much."""
+    tops = np.array([top for top in tops if np.isfinite(top) and top > 0.0])
+    return tops.min() / WIDE if tops.size and tops.max() > WIDE * tops.min() else 0.0
+
+
+def suited(layout, curve):
+    """A curve without a unit in the one that suits the values of all cases, on an axis for them; any other as it is."""
+    if curve.unit:
+        return curve
+    found = [(layout.results[entry.file].series[curve.series], entry.case) for entry in layout.entries
+             if curve.series in layout.results[entry.file].series]
+    tops = [np.nanmax(quantity.values[case], initial=0.0) for quantity, case in found]
+    unit, scale = fitting_unit(curve.series, found[0][0].units, tops)
+    floor = scale * least_shown(tops)
+    return replace(curve, unit=unit, scale="log" if floor else curve.scale, floor=floor)
+
+
 def log_axis(axes, low, high):
     """Logarithmic axis for positive values."""
-    axes.set_yscale("log")
+    axes.set_yscale("log", nonpositive="mask")
     axes.set_ylim(low / 1.2, high * 1.2)
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -203,15 +225,16 @@ def wrap_labels(handles, width):
     return handles
 
 
-def head(figure, layout, title, legend, left_out):
-    """Top of a page: what it shows, of which file, what is left out of a big sweep, and the legend."""
+def head(figure, layout, title, legend, left_out, shown):
+    """Top of a page: what it shows, of which file, what is left out of a big sweep, of which cams the quantities are that are shown, and the
+    legend."""
     handles, columns = legend
     words = [layout.titles[layout.files[0]]] if len(layout.files) == 1 else []
     if layout.colour_key and len(layout.colours) == 1:
         words.append(layout.name(layout.colour_key, layout.colours[0]))
     if len(layout.panels) == 1 and layout.panel_name(layout.panels[0]):
         words.append(layout.panel_name(layout.panels[0]))
-    words += left_out + layout.common_words() + several_cams(layout)
+    words += left_out + layout.common_words() + several_cams(layout, shown)
     width = int(11.0 * figure.bbox.width / figure.dpi)
     text = "\n".join([title[:1].upper() + title[1:], *textwrap.wrap(", ".join(words), width)]).strip()
     is_told = len(handles) + len(layout.colours) + len(layout.files) > 3
@@ -225,17 +248,21 @@ def _words(label):
     return Line2D([], [], linestyle="none", label=label)
 
 
-def several_cams(layout):
-    """What belongs to the whole shaft and what to one cam, where there are several cams."""
+def several_cams(layout, shown):
+    """Of which cams the quantities of these names are, where there are several cams: torques of all, anything else of the first."""
     cams = shafts = 1
     for result in layout.results:
         shafts = max(shafts, int(result.deck["engine.camshafts"].values) if "engine.camshafts" in result.deck else 1)
         given = result.deck.get("cam_bearings.cam_positions_mm")
         if given is not None:
             cams = max(cams, len(str(given.values).split(",")) if isinstance(given.values, str) else np.size(given.values))
-    if shafts > 1:
-        return [f"torques of {shafts} camshafts with {cams} cams each, all else of the first cam"]
-    return [f"torques of all {cams} cams, all else of the first"] if cams > 1 else []
+    if cams * shafts == 1:
+        return []
+    words = f"{shafts} camshafts with {cams} cam{'s' * (cams > 1)} each" if shafts > 1 else f"{cams} cams"
+    are_of_shaft = {name.removeprefix("mean_").startswith("torque_") for name in shown}
+    if True not in are_of_shaft:
+        return [f"of the first cam of {words}"]
+    return [f"torques of {'all ' * (shafts == 1)}{words}" + ", all else of the first cam" * (False in are_of_shaft)]
 
 
 def legend_height(legend, width):

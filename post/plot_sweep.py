@@ -36,6 +36,7 @@ import numpy as np  # noqa: E402
 from cases import lost_contact, lost_contact_words, missing_words, status_of  # noqa: E402
 from command import DPI, ONCE, names_of, run, save_figure, take_over  # noqa: E402
 from layout import TAKEN, groups_over, is_one_of, key_meant, some_numbers, thin_out  # noqa: E402
+from parts import WIDE  # noqa: E402
 from quantities import SPEED, given_shaft  # noqa: E402
 from read import ResultError, fills_grid, read_result  # noqa: E402
 from units import distinct_texts, fitting_unit, key_words, number, shaft_words, unit_words, with_unit  # noqa: E402
@@ -44,7 +45,6 @@ FIGURES = ("map", "curves", "scatter", "parallel")
 QUANTITY = "mean_torque_drive"
 MOST_CURVES = 8  # with a legend; of numbers more have a colour bar
 MOST_COLOURS = 60
-WIDE = 100.0  # largest over smallest value of a quantity from which on its axis is logarithmic
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
 NEAR = 1e-3  # of the largest value: where all are as near as this, numbers along a lower axis are too long for more than its ends
 FREE_TEXTS = ("table", "title")  # keys of the deck whose values are no names of choices

@@ -20,12 +20,13 @@ class Curve:
 
     title: str
     series: str
-    unit: str
+    unit: str  # blank: that which suits the values, on an axis that is logarithmic where cases differ much
     whole_cycle: bool = False  # in a single figure; else the event
     scale: str = "linear"
     touching: bool = False  # means nothing where the roller does not touch the cam
     least_top: float = 0.0  # of the values axis, in the unit
     lines: tuple = ()  # values that mean something, in the unit
+    floor: float = 0.0  # where a logarithmic axis ends though values are below, in the unit
 
 
 CURVES = {
@@ -46,7 +47,7 @@ CURVES = {
     "edge_pressure": Curve("pressure at the end of the roller", "edge_pressure", "GPa"),
     "subsurface_stress": Curve("largest shear stress below the surface", "subsurface_shear_stress", "MPa"),
     "sliding_distance": Curve("sliding distance of a place on the cam", "sliding_distance", "um", touching=True),
-    "wear_depth": Curve("depth worn away from the cam", "cam_wear_depth", "nm", whole_cycle=True),
+    "wear_depth": Curve("depth worn away from the cam", "cam_wear_depth", "", whole_cycle=True),
     "tribofilm": Curve("tribofilm on the cam", "cam_film_thickness", "nm", whole_cycle=True),
     "boundary_coefficient": Curve("boundary coefficient", "boundary_coefficient", "1", touching=True),
     "wear": Curve("wear depth of a turn over specific wear rate", "wear_product", "N/m", touching=True),

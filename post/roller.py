@@ -62,5 +62,5 @@ def roller_figure(layout, _whole_cycle=None):
             axes.set_ylabel("load per length [N/mm]")
         if number + columns >= len(entries):
             axes.set_xlabel("place along the roller over its length")
-    head(figure, layout, "load along the roller", ([], None), layout.shown_words(colours, panels) + layout.turn_words())
+    head(figure, layout, "load along the roller", ([], None), layout.shown_words(colours, panels) + layout.turn_words(), ["line_load"])
     return figure

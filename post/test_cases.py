@@ -277,6 +277,21 @@ def test_a_grid_has_a_panel_for_each_value_of_the_second_key(tmp_path, name, cou
     assert len(panels) == count and all(len(curves(axes)) == 3 for axes in panels)
 
 
+def test_upright_values_of_short_bars_stay_within_the_axes(tmp_path):
+    """A small negative slip between large ones."""
+    path = write_result(tmp_path / "grid.h5", oils=(25.0, 60.0, 95.0))
+    with h5py.File(path, "a") as file:
+        file["summary/mean_slip_ratio"][...] = [0.144, 0.293, 0.2, 0.31, -0.00112, 0.223, np.nan, 0.0401, -0.00456]
+    for name in ("mean_slip", "overview"):
+        figure = draw(name, Layout([read_result(path)]))
+        figure.canvas.draw()
+        axes = next(axes for part in (figure, *figure.subfigs) for axes in part.axes if axes.get_ylabel() == "mean slip ratio [%]")
+        texts = [text for text in axes.texts if text.get_rotation() == 90]
+        assert len(texts) == 9 and {"-0.112", "-0.456"} <= {text.get_text() for text in texts}
+        for box in (text.get_window_extent() for text in texts):
+            assert axes.bbox.y0 <= box.y0 and box.y1 <= axes.bbox.y1, name
+
+
 def test_bars_of_a_grid_have_values_that_do_not_overlap(tmp_path):
     """Values stand above the bars where they fit beside each other, else upright."""
     for speeds, turn in (((300.0, 900.0), 0.0), (tuple(np.linspace(310, 890, 12)), 90.0)):
@@ -427,13 +442,30 @@ def test_torques_of_a_shaft_whose_other_cams_are_at_work_are_shown_for_the_whole
     assert event_window(layout, ["contact_load"]) == window
     figure = draw("overview", layout)
     assert {axes.get_xlim() for axes in figure.subfigs[0].axes} == {(0.0, 360.0)}
-    assert "torques of all 2 cams" in title(figure)
+    assert "torques of all 2 cams, all else of the first cam" in title(figure)
+    assert title(draw("mean_torque", layout)).endswith("torques of all 2 cams")
     with h5py.File(path, "a") as file:
         file["deck/values/engine.camshafts"] = 2
         file["deck/values/engine.given_speed"] = "crankshaft"
         file["summary/crank_turns"] = np.full(9, 2.0)
     layout = Layout([read_result(path)])
-    assert "torques of 2 camshafts with 2 cams each" in title(draw("overview", layout))
+    assert "torques of 2 camshafts with 2 cams each, all else of" in title(draw("overview", layout))
+
+
+@pytest.mark.parametrize("camshafts, words", [(1, "of the first cam of 3 cams"), (2, "of the first cam of 2 camshafts with 3 cams each")])
+def test_a_figure_without_a_torque_of_the_shaft_names_none(tmp_path, camshafts, words):
+    """Friction of the follower over hours of running is that of the first cam's, as load, slip and loads along its roller are."""
+    path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
+    with h5py.File(path, "a") as file:
+        file["deck/values/cam_bearings.cam_positions_mm"] = "20, 40, 60"
+        file["deck/values/engine.camshafts"] = camshafts
+    layout = Layout([read_result(path)])
+    for name in ("running_in", "roller", "load", "mean_slip", "dampers", "turns"):
+        shown = title(draw(name, layout)).replace("\n", " ")
+        assert words in shown and "torque" not in shown, name
+    for name in ("friction_torque", "drive_torque", "friction_sources", "mean_torque"):
+        shown = title(draw(name, layout)).replace("\n", " ")
+        assert "torques of " in shown and "first" not in shown, name
 
 
 def test_torques_of_an_engine_are_over_the_crank_angle_too(tmp_path):

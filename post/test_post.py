@@ -16,7 +16,7 @@ import report
 from command import run
 from figures import FIGURES, draw
 from layout import Layout, chosen_cases, thin_out
-from parts import closed, event_window, set_values_axis
+from parts import closed, event_window, set_values_axis, suited
 from plot import main
 from quantities import CURVES, LARGEST_SHEAR, SOURCES, Missing, values_of
 from read import ResultError, Series, _values, read_result
@@ -73,6 +73,7 @@ def made_up_hours():
             "mean_boundary_coefficient": 0.2 - 1e-6 * time, "mean_friction_torque": 0.01 + 0 * time}
 
 
+HOURS_UNITS = {"time": "s", "mean_boundary_coefficient": "1", "mean_friction_torque": "N m"}  # else m
 # Energies lost in dampers [J] and turns of a train, for each case
 LOST = {"damping_work_cam": 1e-3, "damping_work_seat": 5e-4, "damping_work_leak": 1e-4}
 TURNS = {"valve_lift_at_nose": [9e-3, 9.002e-3, np.nan], "valve_velocity_at_nose": [0.1, -0.1, np.nan],
@@ -197,11 +198,39 @@ def test_surfaces_over_hours_are_those_of_the_file(tmp_path):
     assert [len(axes.lines) for axes in panels] == [3, 3, 1, 1]
     assert panels[0].get_ylabel() == "thickness of the tribofilm [nm]" and panels[0].lines[0].get_xdata()[-1] == pytest.approx(10.0)
     assert panels[0].lines[2].get_ydata() == pytest.approx(1e9 * columns["roller_film"])
-    assert panels[3].lines[0].get_ydata() == pytest.approx(10.0 + 0 * columns["time"])
+    assert panels[1].get_ylabel() == "worn depth [pm]" and panels[1].lines[0].get_ydata()[-1] == pytest.approx(3.6)
+    assert panels[3].lines[0].get_ydata() == pytest.approx(10.0 + 0 * columns["time"]) and panels[3].get_ylim()[1] > 10.2
     with h5py.File(path, "a") as file:
         del file["running_in"]
     with pytest.raises(Missing, match="running_in"):
         draw("running_in", Layout([read_result(path)]))
+
+
+def test_worn_depths_have_the_unit_that_suits_them_and_a_logarithmic_axis_where_cases_differ_much(tmp_path):
+    path = write_result(tmp_path / "two.h5", swept=(SPEED,), speeds=(300.0, 600.0), oils=(60.0,))
+    for factor, unit, scale in ((1.0, "pm", "linear"), (20.0, "pm", "linear"), (99.0, "nm", "linear"), (101.0, "nm", "log"), (1e9, "mm", "log")):
+        with h5py.File(path, "a") as file:
+            for name in ("largest_cam_wear", "mean_cam_wear", "roller_wear"):
+                file[f"running_in/{name}"][1] = factor * made_up_hours()[name]
+            depth = file["series/cam_wear_depth"]
+            depth[0] = 1e-15 * file["series/contact_load"][0]
+            depth[0, :10] = 0.0  # contact is lost
+            depth[1] = factor * depth[0].max() * np.linspace(0.0, 1.0, depth.shape[1])
+        layout = Layout([read_result(path)])
+        axes = draw("running_in", layout).axes[1]
+        scales = {"pm": 1e12, "nm": 1e9, "mm": 1e3}
+        assert axes.get_ylabel() == f"worn depth [{unit}]" and axes.get_yscale() == scale
+        assert axes.lines[3].get_ydata()[-1] == pytest.approx(3.6e-12 * factor * scales[unit])
+        assert scale == "linear" or 0.0 < axes.get_ylim()[0] < 3.6e-14 * scales[unit]
+        axes = draw("wear_depth", layout).axes[0]
+        top = max(line.get_ydata().max() for line in axes.lines if len(line.get_xdata()) > 2)
+        assert axes.get_yscale() == scale and 0.1 <= top <= 1000.0 and axes.get_ylim()[1] > top
+        assert top == pytest.approx(factor * depth_of(layout) * scales[axes.get_ylabel()[-3:-1]])
+
+
+def depth_of(layout):
+    """Largest depth worn away in the first case [m]."""
+    return layout.results[0].series["cam_wear_depth"].values[0].max()
 
 
 def test_load_along_the_roller_is_that_of_its_slices_in_their_order(tmp_path):
@@ -324,6 +353,7 @@ def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), st
             file[f"summary/mean_{name}"].attrs["units"] = unit
         for name, values in made_up_hours().items():
             file[f"running_in/{name}"] = np.tile(values, (len(points), 1))
+            file[f"running_in/{name}"].attrs["units"] = HOURS_UNITS.get(name, "m")
         for name, values in TURNS.items():
             file[f"turns/{name}"] = np.tile(values, (len(points), 1))
         file["turns/turn"] = np.arange(1.0, 4.0)
@@ -497,7 +527,7 @@ def test_values_are_drawn_in_units_for_people(nine):
 
 def test_every_curve_finds_its_unit(nine):
     layout = Layout([read_result(nine)])
-    for curve in CURVES.values():
+    for curve in (suited(layout, curve) for curve in CURVES.values()):
         assert values_of(layout, layout.entries[0], curve.series, curve.unit).shape == (72,)
 
 

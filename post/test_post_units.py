@@ -28,7 +28,7 @@ def test_rounding_up_adds_no_digit(value, text):
 @pytest.mark.parametrize("name, unit, values, expected", [
     ("contact_loss_speed", "rad s-1", [307.58], ("rev/min", 30.0 / np.pi)),
     ("max_roller_spin", "rad s-1", [94.7], ("rev/min", 30.0 / np.pi)),
-    ("min_film", "m", [4.7e-7, 1e-8], ("um", 1e6)), ("lift", "m", [9.5e-3], ("mm", 1e3)), ("area", "m2", [4.2e-10], ("um2", 1e12)),
+    ("min_film", "m", [4.7e-7, 1e-8], ("um", 1e6)), ("depth", "m", [4e-12], ("pm", 1e12)), ("lift", "m", [9.5e-3], ("mm", 1e3)), ("area", "m2", [4.2e-10], ("um2", 1e12)),
     ("pressure", "Pa", [6.5e8], ("GPa", 1e-9)), ("torque", "N m", [0.0763], ("N mm", 1e3)), ("torque", "N m", [5.1], ("N m", 1.0)),
     ("slip_ratio", "1", [0.3], ("%", 100.0)), ("lost_contact_share", "1", [0.1], ("%", 100.0)), ("error", "1", [1e-5], ("1", 1.0)),
     ("angle", "deg", [135.0], ("deg", 1.0)), ("load", "N", [0.0], ("N", 1.0)), ("load", "N", [np.nan, 764.0], ("N", 1.0)),
@@ -48,7 +48,9 @@ def test_units_of_other_dimensions_are_not_mixed():
     ("operating_point.speed_rpm", "rpm", "speed"), ("operating_point.oil_temperature_degC", "degC", "oil temperature"),
     ("film.law", "1", "film law"), ("roller.radius_mm", "mm", "roller radius"), ("surface.cam_roughness_um", "um", "cam roughness"),
     ("spring.stiffness_N_m", "N/m", "spring stiffness"), ("lubricant.thermal_expansion_per_K", "1/K", "thermal expansion"),
-    ("lift.opening_half_angle_deg", "degree", "opening half angle"),
+    ("lift.opening_half_angle_deg", "degree", "opening half angle"), ("wear.cam_rate_mm3_N_m", "mm3/(N m)", "cam rate"),
+    ("heat.oil_conductivity_W_m_K", "W/(m K)", "oil conductivity"),
+    ("bearing_heat.heat_capacity_J_kg_K", "J/(kg K)", "heat capacity"),
     ("asperity.roughness_product", "1", "asperity roughness product")])
 def test_keys_in_words(key, unit, words):
     assert key_words(key, unit) == words

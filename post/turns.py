@@ -49,7 +49,7 @@ def turns_figure(layout, _whole_cycle=None):
         axes.grid(alpha=0.3)
     legend = wrap_labels(section.get_legend_handles_labels()[0], WIDTH), None
     figure.set_figheight(HEIGHT + legend_height(legend, WIDTH))
-    head(figure, layout, "from turn to turn", legend, [])
+    head(figure, layout, "from turn to turn", legend, [], [LIFT, SPEED])
     return figure
 
 

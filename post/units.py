@@ -8,7 +8,7 @@ import numpy as np
 SAME = {"m s-1": "m/s", "m s-2": "m/s2", "N m-1": "N/m", "rad s-1": "rad/s", "-": "1", "": "1", "N*m": "N m", "N.m": "N m", "degree": "deg"}
 # Unit of a file: units that it is shown in, the small ones first, each with how many of them one of the file's is
 SHOWN = {
-    "m": (("nm", 1e9), ("um", 1e6), ("mm", 1e3), ("m", 1.0)),
+    "m": (("pm", 1e12), ("nm", 1e9), ("um", 1e6), ("mm", 1e3), ("m", 1.0)),
     "m2": (("um2", 1e12), ("mm2", 1e6), ("m2", 1.0)),
     "m/s": (("um/s", 1e6), ("mm/s", 1e3), ("m/s", 1.0)),
     "rad/s": (("rev/min", 30.0 / np.pi),),
@@ -73,7 +73,7 @@ def with_unit(words, unit):
 def bare_name(name, unit):
     """Name of a deck key without the unit that it ends with: `stiffness_N_m` is `stiffness`."""
     last = name.rpartition("_")[2]
-    spelled = {"degree": "deg"}.get(unit, unit).replace("1/", "per_").replace("/", "_").replace(" ", "_")
+    spelled = {"degree": "deg"}.get(unit, unit).replace("1/", "per_").translate(str.maketrans("/ ", "__", "()"))
     for ending in (spelled, last if last in WORDS else ""):
         if ending and name.endswith("_" + ending):
             return name[:-len(ending) - 1]

@@ -7,6 +7,7 @@ module camroller_effect_list
    use camroller_names, only : name_length
    use camroller_case, only : case_t, quasi_static, automatic_method, quantity_names
    use camroller_asperity, only : asperity_law_names, law_masjedi_khonsari_asperities
+   use camroller_boundary_law, only : given_coefficients
    use camroller_film, only : film_law_names, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
    use camroller_flexible_setup, only : base_load
    use camroller_heat, only : inlet_law_names, contact_heat_names, inlet_none, contact_heat_none
@@ -171,11 +172,24 @@ contains
       case (effect_modifier)
          if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
       case (effect_boundary_law)
-         if (allocated(variant%boundary_law)) deallocate (variant%boundary_law)
+         call leave_boundary_law_out(variant)
       case (effect_running_in)
          call leave_running_in_out(variant)
       end select
    end subroutine leave_boundary_part_out
+
+   !> Leave the law of boundary friction out: the coefficient is that at its references, of a table the mean of its points.
+   pure subroutine leave_boundary_law_out(variant)
+      !> In: a case; out: with a constant coefficient
+      type(case_t), intent(inout) :: variant
+
+      real(wp), allocatable :: coefficients(:) ! [-]
+
+      if (.not. (allocated(variant%boundary_law) .and. allocated(variant%asperity))) return
+      coefficients = given_coefficients(variant%boundary_law, variant%asperity%boundary_coefficient)
+      variant%asperity%boundary_coefficient = sum(coefficients)/size(coefficients)
+      deallocate (variant%boundary_law)
+   end subroutine leave_boundary_law_out
 
    !> Leave the hours of running out, with the film that grows in them.
    pure subroutine leave_running_in_out(variant)

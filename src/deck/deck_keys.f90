@@ -376,7 +376,7 @@ contains
       call add_number(schema, "roughness_over_tip_radius", positive, "ratio of roughness to tip radius", &
          & default=standard%roughness_over_tip_radius)
       call add_number(schema, "boundary_coefficient", not_negative, "friction coefficient of touching asperities", &
-         & example="0.2")
+         & is_optional=.true., example="0.2")
       call add_number(schema, "film_shear_strength_MPa", not_negative, &
          & "shear strength of the surface film on the real contact area", default=standard%film_shear_strength)
       call add_name(schema, "boundary", boundary_names, standard%boundary, &

@@ -103,6 +103,8 @@ module camroller_key_uses
       key_use_t("heat.roller_heat_capacity_J_kg_K", "ehl.profiles", yes), &
       key_use_t("asperity.roughness_product", "law", summit_laws), &
       key_use_t("asperity.roughness_over_tip_radius", "law", summit_laws), &
+      key_use_t("asperity.boundary_coefficient", "&boundary_law", not_given), &
+      key_use_t("asperity.boundary_coefficient", "boundary_law.law", "logarithmic"), &
       key_use_t("asperity.mobilising_speed_m_s", "mobilisation", "regularised"), &
       key_use_t("boundary_law.reference_speed_m_s", "law", "logarithmic"), &
       key_use_t("boundary_law.reference_temperature_degC", "law", "logarithmic"), &

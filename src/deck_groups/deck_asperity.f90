@@ -4,6 +4,7 @@
 module camroller_deck_asperity
    use camroller_asperity, only : asperity_law_names, friction_modifier_t, law_masjedi_khonsari_asperities, &
       & law_zhao_maietta_chang, smallest_product
+   use camroller_boundary_law, only : boundary_law_names, boundary_table
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group, demand
    use camroller_deck_schema, only : schema_t, add_group, add_number, group_effect, not_negative, positive, proper_fraction, &
@@ -78,8 +79,11 @@ contains
 
       !> Product of density, tip radius and roughness [-]; strength of a surface film [Pa]
       real(wp) :: product, strength
-      character(len=*), parameter :: law = asperity_law_names(law_zhao_maietta_chang)
+      character(len=*), parameter :: law = asperity_law_names(law_zhao_maietta_chang), &
+         & table = boundary_law_names(boundary_table)
 
+      if (get_word(settings, "boundary_law", "law") /= table .or. .not. has_group(settings, "boundary_law")) call demand(settings, &
+         & "asperity", "boundary_coefficient", "friction of asperities without boundary law '"//trim(table)//"'", mistakes)
       if (get_word(settings, "asperity", "law") == asperity_law_names(law_masjedi_khonsari_asperities)) then
          if (get_word(settings, "film", "law") /= film_law_names(law_masjedi_khonsari_rough)) call complain(mistakes, settings, &
             & "asperity", "law", "asperity law 'masjedi_khonsari' goes with film law 'masjedi_khonsari_rough'")

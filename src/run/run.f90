@@ -22,6 +22,7 @@ module camroller_run
    use camroller_result, only : quantity_t, result_t
    use camroller_flexible_solution, only : train_method
    use camroller_running_in, only : aged_t, add_running_in, run_in
+   use camroller_running_in_errors, only : add_hours_to_errors
    use camroller_running_in_remarks, only : judge_running_in
    implicit none
    private
@@ -143,7 +144,8 @@ contains
       call run_listed(case, models, with_series, result, error)
       if (.not. allocated(case%running_in) .or. allocated(error)) return
       call add_running_in(case, models, aged, result)
-      call judge_running_in(case, result, error)
+      call add_hours_to_errors(result, error)
+      if (.not. allocated(error)) call judge_running_in(case, result, error)
    end subroutine run_aged
 
    !> Run a case with all its effects.

@@ -7,6 +7,7 @@ module camroller_part_series
    use camroller_axial_loads, only : solved_loads
    use camroller_axial_table, only : axial_state_t
    use camroller_bearing_asperity, only : bearing_state_t
+   use camroller_boundary_law, only : given_coefficients
    use camroller_cam_surface, only : value_at_angle
    use camroller_case, only : camshaft_number, case_t
    use camroller_contact_forces, only : film_groups
@@ -201,9 +202,13 @@ contains
       !> The change; zero without such a film [-]
       real(wp) :: change
 
+      real(wp), allocatable :: bare(:) ! [-]
+
       change = 0.0_wp
-      if (allocated(case%tribofilm) .and. allocated(case%running_in) .and. allocated(case%asperity)) change = &
-         & abs(case%tribofilm%coefficient - case%asperity%boundary_coefficient)
+      if (.not. (allocated(case%tribofilm) .and. allocated(case%running_in) .and. allocated(case%asperity))) return
+      bare = [case%asperity%boundary_coefficient]
+      if (allocated(case%boundary_law)) bare = given_coefficients(case%boundary_law, case%asperity%boundary_coefficient)
+      change = maxval(abs(case%tribofilm%coefficient - bare))
    end function largest_coefficient_change
 
    !> Series of a roller's pin with an oil film.

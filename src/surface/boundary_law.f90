@@ -11,7 +11,7 @@ module camroller_boundary_law
    private
 
    public :: boundary_law_t, boundary_curve_t, boundary_law_names, boundary_logarithmic, boundary_table
-   public :: new_boundary_curve, evaluate_boundary_curve, follows_temperature
+   public :: new_boundary_curve, evaluate_boundary_curve, follows_temperature, given_coefficients
 
    !> Laws: logarithm of the speed and straight line of the temperature, or a table over both
    character(len=*), parameter :: boundary_law_names(*) = [character(len=name_length) :: "logarithmic", "table"]
@@ -57,6 +57,19 @@ module camroller_boundary_law
    end type weights_t
 
 contains
+
+   !> Coefficients that a law is given by: the points of a table within its bounds, else the one at the references.
+   pure function given_coefficients(law, reference) result(coefficients)
+      !> The law
+      type(boundary_law_t), intent(in) :: law
+      !> Coefficient at the reference speed and temperature; without meaning for a table [-]
+      real(wp), intent(in) :: reference
+      !> The coefficients [-]
+      real(wp), allocatable :: coefficients(:)
+
+      coefficients = [reference]
+      if (law%law == boundary_law_names(boundary_table)) coefficients = min(max(law%coefficient_points, law%smallest), law%largest)
+   end function given_coefficients
 
    !> Prepare a law; refuses one that means nothing.
    subroutine new_boundary_curve(curve, law, reference, error)

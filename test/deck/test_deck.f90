@@ -220,7 +220,7 @@ contains
       call expect_mistake(error, "&surface cam_roughness_um = 0.1 roller_roughness_um = 0.1 /", "", &
          & " the group &surface is missing (roughness of cam and roller)")
       call expect_mistake(error, "mass_kg = 0.0088", "", "4:1: &roller needs 'mass_kg' (mass of the ring)")
-      call expect_mistake(error, "", "&asperity /", "11:1: &asperity needs 'boundary_coefficient'")
+      call expect_mistake(error, "", "&asperity /", "11:1: friction of asperities without boundary law 'table' needs")
    end subroutine missing_parts
 
    subroutine energy_relations(error)

@@ -148,9 +148,11 @@ def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
     ("four_cylinder", "&gas_force table = 'tables/cylinder_pressure.txt' pressure_unit = 'bar' valve_diameter_mm = 28 /", [],
      ["the largest pressure, 5.015 MPa, is 230 degrees of crank angle behind the firing of the cylinder"]),
     ("thesis", "&boundary_law law = 'table' speed_points_m_s = 1e-3, 1 temperature_points_degC = 25, 100\n"
-     "coefficient_points = 0.4, 0.45, 0.35, 0.2 /", [], ["coefficient_points goes up to 0.45 and is cut to boundary_law.largest_coefficient = 0.3"]),
+     "coefficient_points = 0.4, 0.45, 0.35, 0.2 /", [],
+     ["asperity.boundary_coefficient = 0.2 has no effect", "coefficient_points goes up to 0.45 and is cut to boundary_law.largest_coefficient = 0.3"]),
     ("thesis", "&boundary_law law = 'table' speed_points_m_s = 1e-3, 1 temperature_points_degC = 25, 100\n"
-     "coefficient_points = 0.2, 0.25, 0.1, 0.2 smallest_coefficient = 0.15 /", [], ["goes down to 0.1 and is raised to "]),
+     "coefficient_points = 0.2, 0.25, 0.1, 0.2 smallest_coefficient = 0.15 /", [],
+     ["asperity.boundary_coefficient = 0.2 has no effect", "goes down to 0.1 and is raised to "]),
     ("thesis", "&gas_force table = 'tables/cylinder_pressure.txt' valve_diameter_mm = 28 second_valve_diameter_mm = 26 /", [],
      ["gas_force.second_valve_diameter_mm = 26 has no effect: it is used with &second_lift"]),
     ("four_cylinder", "", ["cam_bearings.cam_positions_mm=28,64,120,156,212,248,252,340"],

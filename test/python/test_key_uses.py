@@ -21,7 +21,7 @@ VALUES = {
     "lubricant.viscosity_at_100_degC_mm2_s": "11.5", "lubricant.viscosity_index": "150", "lubricant.sae_grade": "0W-20",
     "lubricant.density_kg_m3": "850", "lubricant.thermal_expansion_per_K": "0.0007", "lubricant.roelands_index": "0.7",
     "film.law": "moes", "asperity.roughness_product": "0.05", "asperity.roughness_over_tip_radius": "0.02",
-    "asperity.mobilising_speed_m_s": "0.002",
+    "asperity.mobilising_speed_m_s": "0.002", "asperity.boundary_coefficient": "0.21",
     "traction.eyring_stress_MPa": "6", "traction.limiting_stress_MPa": "3",
     "roller_profile.crown_radius_mm": "4000", "roller_profile.design_load_N": "900", "roller_profile.end_drop_um": "2",
     "boundary_law.reference_speed_m_s": "0.2", "boundary_law.reference_temperature_degC": "90",
@@ -71,6 +71,9 @@ TABLE = " ".join(key for key in VALUES if re.match(r"lift\.(table|smoothing)", k
 LOGARITHM = " ".join(key for key in VALUES if re.match("boundary_law.*(reference|change|lowest)", key))
 SPEEDS = " ".join(key for key in VALUES if re.match("boundary_law.*points", key))
 
+COEFFICIENT = " asperity.boundary_coefficient"
+# The scene with a table in its place
+TABULATED = "logarithmic roller, table of boundary friction, Euler"
 # The scene in which the moment of inertia of the finger is known and its mass is not
 MASSLESS, TILT = "finger without a mass", " mechanism.adjuster_tilt_deg masses.finger_centre_mm"
 # That with the larger one of both forces on the closed valve, which has no seat
@@ -112,7 +115,7 @@ SCENES = {
         "lowest_speed_m_s = 0.001 /\n",
         [BOUNDARY, POWER, HEAT, "lubricant.viscosity_Pa_s traction.limiting_stress_MPa roller_profile.crown_radius_mm", PINS, LOGARITHM,
          "effects.negligible effects.quantity"]),
-    "logarithmic roller, table of boundary friction, Euler": (
+    TABULATED: (
         ["operating_point.speed_rpm=2000", "numerics.method=euler", "numerics.tolerance=1e-4", "numerics.periodicity=1e-9"],
         "&roller_profile profile = 'logarithmic' design_load_N = 800 /\n&heat /\n"
         "&boundary_law law = 'table' speed_points_m_s = 0.01, 0.1 temperature_points_degC = 20, 100\n"
@@ -148,7 +151,8 @@ SCENES = {
 
 def used_in(*scenes):
     """Keys of the table that are used in scenes."""
-    return {key for scene in scenes for keys in [*SCENES[scene][2], TILT * (scene != MASSLESS), SEAT * (scene != JUMP)] for key in keys.split()}
+    return {key for scene in scenes for keys in [*SCENES[scene][2], TILT * (scene != MASSLESS), SEAT * (scene != JUMP),
+                                           COEFFICIENT * (scene != TABULATED)] for key in keys.split()}
 
 
 def run(camroller, deck, command, *values):
@@ -267,6 +271,7 @@ def test_a_key_of_a_sweep_without_effect_has_a_remark(camroller, tmp_path, sweep
      "'needle_bearing.pin_width_mm' has no effect: it is used with kind = 'journal'; kind is 'needles'"),
     (["sweep.key_1=lift.smoothing_um", "sweep.values_1=0,5"], "it is used with law = 'table'; law is 'power'"),
     (["sweep.key_1=lubricant.density_kg_m3", "sweep.values_1=850,870"], "it is used with temperature_law = 'walther' or 'data_sheet', or"),
+    (["sweep.key_1=asperity.boundary_coefficient", "sweep.values_1=0.1,0.2"], None),
     # 'camroller ehl' takes the same deck
     (["sweep.key_1=ehl.flow_factors", "sweep.values_1=.true.,.false."], None),
     # where the choice varies too, some cases may use the key
@@ -281,3 +286,32 @@ def test_a_sweep_of_a_key_that_no_case_uses_is_refused(camroller, values, messag
         assert done.returncode == 3 and message in done.stderr and done.stderr.count("no effect") == 1
     else:
         assert done.returncode == 0 and "no effect" not in done.stderr
+
+
+def test_a_table_of_boundary_friction_takes_the_place_of_the_coefficient(camroller, tmp_path):
+    """The coefficient is not needed then, and changes no number: not with a tribofilm, whose scale of errors is what it changes, nor in
+    the runs without the law, which have the mean of the table within its bounds."""
+    table = "&boundary_law law = 'table' speed_points_m_s = 0.01, 0.1 temperature_points_degC = 20, 100\n" \
+        "coefficient_points = 0.11, 0.12, 0.1, 0.4 largest_coefficient = 0.15 /\n"
+    text = (ROOT / "decks/tribofilm.nml").read_text().partition("&sweep")[0]
+    bare = re.sub(r"boundary_coefficient = \S+", "", text)
+    given, deck = tmp_path / "given.nml", tmp_path / "deck.nml"
+    given.write_text(text + table)
+    deck.write_text(bare + table)
+    coarse = ["output.angle_step_deg=10", "running_in.places=36", "running_in.accuracy=0.01"]
+    assert numbers_of(camroller, deck, *coarse) == numbers_of(camroller, given, *coarse)
+    assert "boundary_coefficient" not in run(camroller, deck, "check")
+    told = "remark: asperity.boundary_coefficient = 0.2 has no effect: it is used without &boundary_law, or with boundary_law.law = " \
+        "'logarithmic'; boundary_law.law is 'table'"
+    assert told in run(camroller, given, "check").splitlines()
+    swept = ["--set", "boundary_law.law=table"]
+    given.write_text(text + table + "&sweep key_1 = 'asperity.boundary_coefficient' values_1 = 0.1, 0.2 /\n")
+    refused = subprocess.run([camroller, "check", str(given), *swept], capture_output=True, text=True, check=False)
+    assert refused.returncode == 3 and "'asperity.boundary_coefficient' has no effect: it is used without &boundary_law" in refused.stderr
+    given.write_text(text + table + "&sweep key_1 = 'asperity.boundary_coefficient' values_1 = 0.1, 0.2 key_2 = 'boundary_law.law' "
+                     "values_2 = 'table' /\n")
+    assert subprocess.run([camroller, "check", str(given)], capture_output=True, check=False).returncode == 0
+    deck.write_text(bare)
+    refused = subprocess.run([camroller, "check", str(deck)], capture_output=True, text=True, check=False)
+    assert refused.returncode == 3
+    assert "friction of asperities without boundary law 'table' needs 'boundary_coefficient' in &asperity" in refused.stderr

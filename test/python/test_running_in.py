@@ -185,3 +185,26 @@ def test_an_accuracy_of_the_hours_that_is_not_reached_has_a_remark(camroller, tm
         stated = file["summary/estimated_error_of_running_in"][...].item()
     assert stated > 1e-3 and f"{words}{stated:.3g}"[:-1] in told
     assert words[:45] not in done(camroller, "run", DECK, "--no-sweep", *COARSE[:4], "-o", "y.h5", folder=tmp_path).stderr
+
+
+def test_stated_errors_of_means_and_extremes_have_those_of_the_hours(camroller, tmp_path):
+    """Films and depths after hours of steps: against hours that are a hundred times as accurate, in each mean and extreme."""
+    found = []
+    for accuracy, of_cycle in ((1e-3, 1e-4), (1e-5, 1e-6)):
+        told = done(camroller, "run", DECK, "--no-sweep", *COARSE[:4], "--set", "operating_point.speed_rpm=600", "--set",
+                    f"running_in.accuracy={accuracy}", "--set", f"numerics.accuracy={of_cycle}", "-o", "x.h5", folder=tmp_path).stderr
+        with h5py.File(tmp_path / "x.h5") as file:
+            found.append({name: data[...].item() for name, data in file["summary"].items()})
+            stated = [file[f"summary/estimated_error_of_{kind}"].attrs["long_name"] for kind in ("means", "extremes")]
+        # the cycle keeps to its accuracy, and the hours to theirs
+        assert "did not reach" not in told and all("error over hours of running" in str(words) for words in stated)
+    coarse, fine = found
+    errors = []
+    for series, least in (("cam_wear_depth", 0.0), ("cam_film_thickness", 120e-9)):
+        size, extent = fine[f"mean_{series}"], fine[f"max_{series}"] - fine[f"min_{series}"]
+        for name, scale in (("mean", size), ("min", extent), ("max", extent)):
+            allowed = sum(numbers[f"estimated_error_of_{'means' if name == 'mean' else 'extremes'}"] for numbers in found)
+            errors.append(abs(coarse[f"{name}_{series}"] - fine[f"{name}_{series}"]) / max(scale, least))
+            assert errors[-1] <= allowed, (name, series)
+    # and they are there: the cycle alone is right to 1e-6
+    assert max(errors) > 3e-5 and coarse["estimated_error_of_means"] < 3 * coarse["estimated_error_of_running_in"] + 1e-4

@@ -5,6 +5,7 @@ module test_boundary_law
    use camroller_boundary_law, only : boundary_curve_t, boundary_law_t, evaluate_boundary_curve, new_boundary_curve
    use camroller_case, only : case_t
    use camroller_conjunction, only : flash_resistance
+   use camroller_effect_list, only : effect_boundary_law, leave_out
    use camroller_error, only : error_t, kind_deck
    use camroller_kinds, only : wp
    use camroller_model, only : model_t, new_model, set_operating_point
@@ -30,6 +31,7 @@ contains
          new_unittest("covered parts count in proportion: bare, tribofilm, friction modifier", test_mixture), &
          new_unittest("the coefficient follows the oil temperature of a host", test_host), &
          new_unittest("with heat, the coefficient is that of the surfaces' own temperature", test_heat), &
+         new_unittest("without its law a case has the coefficient at the references, or the mean of the table", test_left_out), &
          new_unittest("impossible laws are refused with a message", test_refusals) &
          ]
    end subroutine collect_boundary_law
@@ -55,6 +57,23 @@ contains
       law%coefficient_points = [0.10_wp, 0.11_wp, 0.13_wp, 0.12_wp, 0.09_wp, 0.10_wp, 0.11_wp, 0.12_wp, 0.12_wp, 0.12_wp, &
          & 0.14_wp, 0.15_wp]
    end function tabulated
+
+   subroutine test_left_out(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+
+      case = thesis_case()
+      case%asperity%boundary_coefficient = 0.17_wp
+      case%boundary_law = usual()
+      call leave_out(case, effect_boundary_law)
+      call check(error, .not. allocated(case%boundary_law) .and. abs(case%asperity%boundary_coefficient - 0.17_wp) <= 0.0_wp)
+      if (allocated(error)) return
+      case%boundary_law = tabulated()
+      ! of twelve points with a mean of 0.1175 that at 0.15 is cut by 0.006
+      case%boundary_law%largest = 0.144_wp
+      call leave_out(case, effect_boundary_law)
+      call check(error, .not. allocated(case%boundary_law) .and. abs(case%asperity%boundary_coefficient - 0.117_wp) < 1.0e-15_wp)
+   end subroutine test_left_out
 
    subroutine test_logarithm(error)
       type(error_type), allocatable, intent(out) :: error

@@ -12,7 +12,7 @@ module test_random_wide
    use camroller_accuracy, only : is_checked, has_tolerance, resolve_numerics
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_remarks, only : missed_accuracy, missed_means, missed_extremes
+   use camroller_remarks, only : missed_accuracy, missed_means, missed_extremes, missed_hours
    use camroller_result, only : result_t
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
@@ -396,7 +396,8 @@ contains
       if (trouble /= "") call count_ending(tally, "SILENT: a result that is not right")
    end subroutine check_deck
 
-   !> Estimates above the accuracy without a remark that says so.
+   !> Estimates above the accuracy without a remark that says so. With hours of running those of means and extremes have the error
+   !> over the hours in them, which has a remark of its own.
    function missing_remarks(case, result) result(trouble)
       type(case_t), intent(in) :: case
       type(result_t), intent(in) :: result
@@ -407,7 +408,11 @@ contains
       integer :: i
 
       trouble = ""
-      do i = 1, size(estimates)
+      if (allocated(case%running_in)) then
+         if (scalar_of(result, "estimated_error_of_running_in") > case%running_in%accuracy .and. all(result%remarks%kind &
+            & /= missed_hours)) trouble = " the error over the hours above their accuracy without a remark;"
+      end if
+      do i = 1, merge(1, size(estimates), allocated(case%running_in))
          if (scalar_of(result, trim(estimates(i))) > case%numerics%accuracy .and. all(result%remarks%kind /= kinds(i))) then
             trouble = trouble//" "//trim(estimates(i))//" above the accuracy without a remark;"
          end if

@@ -12,7 +12,7 @@ module wide_decks
    use camroller_table_file, only : table_t
    use random_decks, only : random_t, draw, start_random
    use wide_draft, only : draft_t, style_t, decided_number, draft_cams, draft_engine, draft_oil_and_train, has_source, is_allowed, &
-      & keep_rules, may_have
+      & keep_rules, may_have, needs_table
    use wide_lists, only : list_of_integers, list_of_numbers
    use wide_numbers, only : end_of_range, find_range, usual_t
    use wide_tables, only : draw_lift_table, draw_pressure_table
@@ -74,7 +74,8 @@ contains
       call draft_oil_and_train(random, style, draft)
       do group = 1, schema%group_count
          call start_stream(random, seed, "&"//trim(schema%groups(group)%name))
-         if (.not. has_group(random, draft, style, schema, group)) cycle
+         if (.not. (has_group(random, draft, style, schema, group) .or. (schema%groups(group)%name == "boundary_law" .and. &
+            & needs_table(deck%text)))) cycle
          if (.not. may_have(draft, deck%text, trim(schema%groups(group)%name))) cycle
          deck%text = deck%text//"&"//trim(schema%groups(group)%name)//nl
          call draw(random, number)

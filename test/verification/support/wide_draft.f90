@@ -9,7 +9,7 @@ module wide_draft
    private
 
    public :: draft_t, style_t, draft_cams, draft_engine, draft_oil_and_train, decided_number, may_have, keep_rules, is_allowed, &
-      & has_source
+      & has_source, needs_table
 
    !> How much of what is hard or slow there is in decks
    type :: style_t
@@ -164,6 +164,15 @@ contains
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
    end function may_have
 
+   !> Do asperities lack the coefficient of friction, which a table of &boundary_law then gives?
+   pure function needs_table(text)
+      !> The deck so far
+      character(len=*), intent(in) :: text
+      logical :: needs_table
+
+      needs_table = index(text, "&asperity") > 0 .and. deck_word(text, "asperity", "boundary_coefficient") == ""
+   end function needs_table
+
    !> Numbers that other keys hang on; blank for others.
    pure function decided_number(draft, name) result(words)
       !> What is decided
@@ -265,6 +274,8 @@ contains
       if (group == "lift" .or. group == "second_lift") call keep_lift_rules(law, key, is_given)
       if (group == "boundary_law") is_given = is_of_boundary_law(law, key, is_given)
       if (group == "needle_bearing") is_given = is_of_bearing(deck_word(text, group, "kind"), key, is_given)
+      ! Where it is not there, there is a table in its place
+      if (key == "boundary_coefficient") is_given = is_given .or. draft%is_first
       if (key == "limiting_stress_MPa") is_given = is_given .and. deck_word(text, group, "limit") == "local"
       select case (key)
       case ("table")
@@ -384,6 +395,7 @@ contains
             & "'zhao_maietta_chang'"])
          if (index(text, "&asperity") > 0 .and. words == "'masjedi_khonsari'") is_allowed = &
             & index(text, "'masjedi_khonsari_rough'") > 0 .and. index(text, "film_shear_strength") == 0
+         if (words == "'logarithmic'") is_allowed = .not. needs_table(text)
       case ("load_arm", "spin", "boundary", "seating")
          is_allowed = has_source(text) .or. words == key%default
       case ("method")
