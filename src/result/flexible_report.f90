@@ -157,7 +157,7 @@ contains
    end subroutine add_held
 
    !> Errors of the means of a turn: from the last turn and the one with a finer tolerance, each with points of its own. They are
-   !> relative to the mean magnitude of their series, those of torques to the mean of all losses,
+   !> relative to the mean magnitude of their series, or to what counts as none of it, those of torques to the mean of all losses,
    !> those of powers of dampers to it at least. What the gas pays of the losses counts for the two torques that hold it.
    !>
    !> In a period the roller gains no energy: what it has gained or lost of it, where a disturbance hardly decays in a turn, counts
@@ -205,7 +205,7 @@ contains
          means%size(paid) = losses + means%torques(of_gas_damping)
       end if
       mean_errors = 0.0_wp
-      where (means%size > 0.0_wp) mean_errors = error_share*abs(means%mean - finer%mean)/means%size
+      where (means%size > 0.0_wp) mean_errors = error_share*abs(means%mean - finer%mean)/max(means%size, series%least)
       if (allocated(model%flexible%adjuster) .and. solution%cycle%period == 1) then
          missing_oil = abs(means%oil(1) - means%oil(2))/max(maxval(abs(means%oil)), tiny(1.0_wp))
          place = find_quantity(series, "check_valve_flow")
