@@ -41,6 +41,7 @@ COLUMNS = [
     ('mean_torque_shaft_drag', 'seals, drive', 'N mm'),
     ('mean_torque_friction', 'all friction', 'N mm'),
     ('fmep_friction', 'friction mean effective pressure', 'kPa'),
+    ('mean_torque_gas_damping', 'gas damping', 'N mm'),
     ('mean_slip_ratio', 'mean slip', '%'),
     ('max_axial_pressure_max', 'peak pressure', 'GPa'),
     ('max_hertz_pressure', 'peak pressure', 'GPa'),

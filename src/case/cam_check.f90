@@ -5,12 +5,12 @@ module camroller_cam_check
    use camroller_cam_angle, only : cam_angle_text
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_minimum, only : minimum_t, start_minimum, narrow_minimum
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp, degree, pi
    use camroller_lift, only : is_tabulated
    use camroller_kinematics, only : position_t
    use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, next_angle
    use camroller_model, only : model_t, evaluate_geometry
-   use camroller_number_text, only : in_mm => millimetres_text
+   use camroller_number_text, only : number_text, in_mm => millimetres_text
    implicit none
    private
 
@@ -101,7 +101,11 @@ contains
       call evaluate_geometry(model, angle, position, status)
       if (status /= 0) then
          call raise(error, kind_domain, "the finger cannot reach the lift of "//in_mm(position%lift)//" mm at "// &
-            & cam_angle_text(angle, 2)//"; mechanism.pivot_to_pad_mm = "//in_mm(model%linkage%b)//" is too short for it")
+            & cam_angle_text(angle, 2)//": its pad stands at "//number_text(acos(model%linkage%base_cosine)/degree, 3)// &
+            & " deg from the valve's axis on the base circle and can open the valve by "// &
+            & in_mm(model%linkage%b*(1.0_wp + model%linkage%base_cosine))//" mm, until it lies along that axis; is one of "// &
+            & "mechanism.pivot_to_pad_mm, mechanism.valve_axis_angle_deg, mechanism.roller_arm_angle_deg, "// &
+            & "mechanism.base_radius_mm wrong, or the lift, as max_lift_mm?")
          return
       end if
       ! Hollow where the curvature is negative: |R_c| = -1/kappa + r_R

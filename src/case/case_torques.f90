@@ -4,7 +4,7 @@
 module camroller_case_torques
    use camroller_case, only : case_t, energy_names
    use camroller_effect_list, only : effect_names, has_effect
-   use camroller_torque_list, only : torque_count, torque_list, is_torque
+   use camroller_torque_list, only : torque_count, torque_list, is_torque, of_gas_damping
    implicit none
    private
 
@@ -36,17 +36,15 @@ contains
       integer :: i
       ! Effect without which a case has no such torque, by its place in `effect_names`; 0 where there is none to leave out
       integer, parameter :: effect_of(*) = [(findloc(effect_names, torque_list(i)%source, 1), i=1, torque_count)]
-      logical, parameter :: is_dynamic(*) = torque_list%source == "dynamics", &
-         & is_consistent(*) = torque_list%source == "roller" .or. .not. is_torque
+      logical, parameter :: is_consistent(*) = torque_list%source == "roller" .or. .not. is_torque
 
       has = .true.
       if (effect_of(row) > 0) then
          has = has_effect(case, effect_of(row))
-      else if (is_dynamic(row)) then
-         has = allocated(case%dynamics)
       else if (is_consistent(row)) then
          has = case%energy == energy_names(1)
       end if
+      if (row == of_gas_damping) has = has .and. allocated(case%gas_force)
    end function has_torque
 
 end module camroller_case_torques

@@ -2,12 +2,12 @@
 !>
 !> In: case, linkage, rigid train, joint of the pivot. Out: `flexible_t`, or what keeps the case from having one.
 module camroller_flexible_setup
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp, degree, pi
    use camroller_error, only : error_t, raise, kind_deck, kind_convergence
    use camroller_contact_compliance, only : line_approach
    use camroller_case, only : case_t, energy_names
    use camroller_asperity, only : mobilisation_names
-   use camroller_kinematics, only : linkage_t, position_t, evaluate_position
+   use camroller_kinematics, only : linkage_t, mechanism_t, position_t, evaluate_position
    use camroller_dynamics, only : train_t
    use camroller_lift, only : highest_lift, lift_law_t
    use camroller_pivot, only : pivot_t
@@ -20,7 +20,7 @@ module camroller_flexible_setup
    implicit none
    private
 
-   public :: rest_t, set_flexible, check_ball, find_rest, base_load, seat_sink
+   public :: rest_t, set_flexible, check_ball, find_rest, base_load, pivot_share, say_pulled_off, seat_sink
 
    !> The train at rest on the base circle
    type :: rest_t
@@ -185,11 +185,12 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(rest_t) :: rest
+      character(len=:), allocatable :: text
 
       if (allocated(case%lash_adjuster)) then
          if (.not. load > 0.0_wp) then
-            call raise(error, kind_deck, "lash_adjuster: in this mechanism the plunger presses the finger away from the "// &
-               & "base circle, not onto it; check mechanism.adjuster_tilt_deg and valve_axis_angle_deg")
+            call say_pulled_off(case%mechanism, "on the base circle", text)
+            call raise(error, kind_deck, "lash_adjuster: "//text)
             return
          end if
          allocate (flexible%adjuster)
@@ -226,19 +227,52 @@ contains
       !> W [N]
       real(wp) :: load
 
-      ! Normal and tangent of the contact [-], the normal along the adjuster's axis [-], angle of that axis [rad], area [m^2]
-      real(wp) :: normal(2), tangent(2), along, axis, area
+      real(wp) :: area ! [m^2]
 
       load = case%spring%base_circle_load
       if (.not. (allocated(case%dynamics) .and. allocated(case%lash_adjuster))) return
       if (.not. case%lash_adjuster%spring_force > 0.0_wp) return
-      call normal_direction(closed%normal_arm, closed%tangent_arm, linkage%a, closed%arm_angle, linkage%sense, normal, tangent)
-      axis = case%mechanism%valve_axis_angle + case%mechanism%adjuster_tilt
-      along = normal(1)*cos(axis) - normal(2)*sin(axis)
       area = 0.25_wp*pi*case%lash_adjuster%diameter**2
-      load = -(case%lash_adjuster%supply_pressure*area + case%lash_adjuster%spring_force) &
-         & /(along + cos(case%mechanism%adjuster_tilt)*closed%normal_arm/closed%valve_arm)
+      load = (case%lash_adjuster%supply_pressure*area + case%lash_adjuster%spring_force) &
+         & /pivot_share(linkage, closed, case%mechanism%adjuster_tilt)
    end function base_load
+
+   !> Force that presses a finger at rest onto its pivot, along the adjuster's axis and without friction, over the contact load;
+   !> negative where cam and valve pull the finger off.
+   pure function pivot_share(linkage, position, tilt) result(share)
+      !> The linkage
+      type(linkage_t), intent(in) :: linkage
+      !> Geometry at a cam angle
+      type(position_t), intent(in) :: position
+      !> Angle from the valve's axis to the adjuster's [rad]
+      real(wp), intent(in) :: tilt
+      !> The force over the load [-]
+      real(wp) :: share
+
+      ! Normal and tangent of the contact [-], angle of the adjuster's axis [rad]
+      real(wp) :: normal(2), tangent(2), axis
+
+      call normal_direction(position%normal_arm, position%tangent_arm, linkage%a, position%arm_angle, linkage%sense, normal, &
+         & tangent)
+      axis = linkage%valve_axis_angle + tilt
+      share = -(normal(1)*cos(axis) - normal(2)*sin(axis) + cos(tilt)*position%normal_arm/position%valve_arm)
+   end function pivot_share
+
+   !> That cam and valve pull a finger off its pivot, in words that name the keys which decide it.
+   pure subroutine say_pulled_off(mechanism, where, text)
+      !> The mechanism
+      type(mechanism_t), intent(in) :: mechanism
+      !> Where that is so
+      character(len=*), intent(in) :: where
+      !> The words
+      character(len=:), allocatable, intent(out) :: text
+
+      text = "cam and valve pull the finger off its pivot even at rest, "//where//", with mechanism.valve_axis_angle_deg = "// &
+         & number_text(mechanism%valve_axis_angle/degree, 6)
+      if (abs(mechanism%adjuster_tilt) > 0.0_wp) text = text//" and mechanism.adjuster_tilt_deg = "// &
+         & number_text(mechanism%adjuster_tilt/degree, 6)
+      text = text//"; no train works so: are the dimensions of &mechanism right, angles in degrees and with their signs?"
+   end subroutine say_pulled_off
 
    !> How far the spring alone presses the closed valve into its seat: by that a lash is less, and of a smaller one nothing is left.
    pure function seat_sink(flexible, train) result(sink)

@@ -16,7 +16,7 @@ module camroller_model
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
    use camroller_dynamics, only : gas_force_t, train_t, moments_t, evaluate_moments, seating_names, load_arm_names
    use camroller_input_ramp, only : ramp_t
-   use camroller_pivot, only : pivot_t, new_pivot
+   use camroller_pivot, only : assumed_inertia, new_pivot, pivot_t
    use camroller_flexible_parts, only : flexible_t, set_oil
    use camroller_flexible_setup, only : base_load, check_ball, set_flexible
    use camroller_materials, only : combined_modulus, combined_roughness
@@ -403,9 +403,8 @@ contains
       model%base_circle_load = base_load(case, model%linkage, closed)
       model%train%valve_mass = case%masses%valve
       model%train%finger_inertia = case%masses%finger_inertia
-      if (case%masses%finger_inertia <= 0.0_wp) then
-         model%train%finger_inertia = case%masses%finger*case%mechanism%pivot_to_pad**2
-      end if
+      if (case%masses%finger_inertia <= 0.0_wp) model%train%finger_inertia = assumed_inertia(case%masses%finger, &
+         & case%mechanism%pivot_to_pad)
       model%train%stiffness = case%spring%stiffness
       model%train%precompression = case%spring%precompression
       model%roller_inertia = ring_inertia(case%roller%mass, model%roller_radius, model%roller_radius - case%roller%wall_thickness)

@@ -5,7 +5,9 @@
 module camroller_deck
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t
-   use camroller_number_text, only : integer_text
+   use camroller_kinds, only : wp
+   use camroller_number_text, only : integer_text, number_text
+   use camroller_pivot, only : assumed_centre, assumed_inertia
    use camroller_case_columns, only : column_reader_t
    use camroller_mistakes, only : add_mistake, mistakes_t, raise_mistakes, override_place
    use camroller_text_file, only : read_standard_input, read_text_file, folder_of
@@ -14,7 +16,7 @@ module camroller_deck
    use camroller_text_encoding, only : check_encoding, first_foreign
    use camroller_deck_schema, only : schema_t
    use camroller_deck_keys, only : new_schema
-   use camroller_settings, only : settings_t, group_position
+   use camroller_settings, only : find_value, group_position, settings_t, take
    use camroller_deck_matching, only : override_t, add_override, new_settings, match_deck, apply_override, demand_required, &
       & fill_dependent_defaults
    use camroller_deck_relations, only : check_relations
@@ -182,9 +184,48 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       call fill_dependent_defaults(settings)
+      call fill_finger(settings)
       call check_relations(settings, mistakes)
       call obtain_tables(settings, folder, tables, mistakes)
    end subroutine complete
+
+   !> Inertia and centre of mass of the finger where the deck has none: what the model takes then.
+   subroutine fill_finger(settings)
+      !> The settings
+      type(settings_t), intent(inout) :: settings
+
+      ! Mass [kg], distance from the pivot to the pad [m], inertia [kg m^2]
+      real(wp) :: mass, pad, inertia
+
+      mass = 0.0_wp
+      pad = 0.0_wp
+      inertia = 0.0_wp
+      call take(settings, "masses", "finger_kg", mass)
+      call take(settings, "mechanism", "pivot_to_pad_mm", pad)
+      call assume("finger_inertia_kg_m2", assumed_inertia(mass, pad), 1.0_wp)
+      call take(settings, "masses", "finger_inertia_kg_m2", inertia)
+      call assume("finger_centre_mm", assumed_centre(mass, inertia), 1.0e3_wp)
+
+   contains
+
+      !> Give a key that the deck does not give its number, or none where that is zero.
+      subroutine assume(key, number, factor)
+         !> Name of the key
+         character(len=*), intent(in) :: key
+         !> The number [SI unit]
+         real(wp), intent(in) :: number
+         !> What makes it one in the unit of the key [unit of the key over SI unit]
+         real(wp), intent(in) :: factor
+
+         associate (value => settings%values(find_value(settings, "masses", key)))
+            if (value%is_given) return
+            value%is_known = number > 0.0_wp
+            value%numbers = [number]
+            value%text = number_text(factor*number)
+         end associate
+      end subroutine assume
+
+   end subroutine fill_finger
 
    !> Case of a deck, with other values for some keys.
    subroutine make_case(deck, overrides, case, error)

@@ -1,20 +1,21 @@
-!> Remarks on the sliding joints of a deck, which take the geometry of its train.
+!> Remarks on the joints of a deck, sliding ones and the finger's pivot, which take the geometry of its train.
 !>
 !> In: a deck. Out: sentences. Nothing is refused for them.
 module camroller_deck_joint_remarks
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, make_case, override_t
    use camroller_error, only : error_t
+   use camroller_flexible_setup, only : pivot_share, say_pulled_off
    use camroller_joint_setup, only : find_arms
-   use camroller_kinds, only : wp
-   use camroller_kinematics, only : linkage_t, new_linkage
-   use camroller_lift, only : lift_law_t, new_lift_law
+   use camroller_kinds, only : degree, wp
+   use camroller_kinematics, only : evaluate_position, linkage_t, new_linkage, position_t
+   use camroller_lift, only : evaluate_lift, lift_law_t, new_lift_law
    use camroller_number_text, only : number_text
    use camroller_text_lines, only : add_line, line_t
    implicit none
    private
 
-   public :: remark_stem_axis
+   public :: remark_stem_axis, remark_pivot
 
 contains
 
@@ -54,5 +55,47 @@ contains
          & number_text(mm*arms(1), 4)//" to "//number_text(mm*arms(2), 4)//" mm from the pivot, beside a stem of "// &
          & number_text(mm*width, 3)//" mm")
    end subroutine remark_stem_axis
+
+   !> A mechanism whose cam and valve pull the finger off its pivot at rest: no other force holds it there.
+   subroutine remark_pivot(deck, left_out, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Keys of which nothing is said
+      character(len=*), intent(in) :: left_out(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(override_t) :: none(0)
+      type(case_t) :: case
+      type(linkage_t) :: linkage
+      type(lift_law_t) :: law
+      type(position_t) :: position
+      type(error_t), allocatable :: failure
+      ! Lift and its derivatives [m/rad^n]; smallest force on the pivot over the contact load so far, and one of them [-]
+      real(wp) :: lift(0:3), least, share
+      character(len=:), allocatable :: where, text
+      integer :: i, status
+
+      if (any(index(left_out, "mechanism.") == 1)) return
+      call make_case(deck, none, case, failure)
+      if (.not. allocated(failure)) call new_linkage(linkage, case%mechanism, failure)
+      if (.not. allocated(failure)) call new_lift_law(law, case%lift, failure)
+      if (allocated(failure)) return
+      least = 0.0_wp
+      do i = -180, 179
+         call evaluate_lift(law, i*degree, lift)
+         call evaluate_position(linkage, lift, position, status)
+         ! Where the roller passes the line from pivot to cam centre the case is refused
+         if (status /= 0 .or. position%normal_arm <= 0.0_wp) cycle
+         share = pivot_share(linkage, position, case%mechanism%adjuster_tilt)
+         if (share >= least) cycle
+         least = share
+         where = "most of all at a lift of "//number_text(1.0e3_wp*lift(0), 3)//" mm, by "// &
+            & number_text(-100.0_wp*share, 2)//" % of the contact load"
+      end do
+      if (.not. allocated(where)) return
+      call say_pulled_off(case%mechanism, where, text)
+      call add_line(remarks, text)
+   end subroutine remark_pivot
 
 end module camroller_deck_joint_remarks

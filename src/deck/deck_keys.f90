@@ -201,7 +201,7 @@ contains
          & "mass of the finger with its roller; for the force in the pivot's joint, and placed at the pad for the inertia "// &
          & "where that is not given", example="0.0418", is_optional=.true.)
       call add_number(schema, "finger_inertia_kg_m2", positive, &
-         & "moment of inertia of the finger about its pivot", is_optional=.true.)
+         & "moment of inertia of the finger about its pivot; where not given that of its mass at the pad", is_optional=.true.)
       call add_number(schema, "finger_centre_mm", positive, &
          & "distance from the pivot to the finger's centre of mass, on the roller arm; where not given 20, an "// &
          & "assumption, or the radius of gyration if that is less; acts on the force in the pivot", is_optional=.true.)

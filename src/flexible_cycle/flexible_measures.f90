@@ -19,7 +19,7 @@ module camroller_flexible_measures
    use camroller_flexible_energy, only : powers_t, evaluate_powers
    use camroller_flexible_parts, only : damper_count
    use camroller_spring_modes, only : wave_compression
-   use camroller_torque_list, only : of_damping
+   use camroller_torque_list, only : is_loss, of_damping
    implicit none
    private
 
@@ -74,8 +74,9 @@ module camroller_flexible_measures
       & measure_t("float_share", "1", "part of the cycle with the rigid train in its event and no load between cam and roller"), &
       & measure_t("losses_of_contact", "1", "times that cam and roller part"), &
       & measure_t("dynamic_torque", "N m", "mean torque of cam and follower"), &
-      & measure_t("dynamic_loss_torque", "N m", "mean torque of all losses of cam and follower"), &
-      & measure_t("damping_torque", "N m", "mean torque of the losses in dampers, leak and check valve"), &
+      & measure_t("dynamic_loss_torque", "N m", "mean torque of all losses of cam and follower, but those that the gas pays"), &
+      & measure_t("damping_torque", "N m", "mean torque of the losses in dampers, leak and check valve, but those that the "// &
+      & "gas pays"), &
       & measure_t("joint_force_min", "N", "smallest force in the joint of finger and pivot; negative: the socket would open"), &
       & measure_t("joint_tension_share", "1", "part of the cycle with tension in that joint"), &
       & measure_t("surge_force", "N", "largest force of the spring's first mode"), &
@@ -257,7 +258,7 @@ contains
       sample%joint_before = last%joint
       last = sample
       values(drive_torque) = values(drive_torque) + weight*powers%drive/model%speed
-      values(loss_torque) = values(loss_torque) + weight*sum(powers%losses)/model%speed
+      values(loss_torque) = values(loss_torque) + weight*sum(powers%losses, mask=is_loss)/model%speed
       values(damping_torque) = values(damping_torque) + weight*powers%losses(of_damping)/model%speed
       values(residual_work) = values(residual_work) + weight*powers%residual/model%speed
       associate (works => damper_works(:count(damper_works <= size(values))))

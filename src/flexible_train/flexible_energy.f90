@@ -7,7 +7,7 @@ module camroller_flexible_energy
    use camroller_model, only : model_t
    use camroller_torque, only : contact_power
    use camroller_torque_list, only : torque_count, of_contact, of_needle, of_needle_drag, of_guide, of_damping, &
-      & of_tip, of_seal, of_guide_side, of_pivot
+      & of_gas_damping, of_tip, of_seal, of_guide_side, of_pivot
    use camroller_contact_compliance, only : series_energy
    use camroller_flexible_parts, only : damper_count
    use camroller_spring_modes, only : mode_energy
@@ -31,7 +31,7 @@ module camroller_flexible_energy
       real(wp) :: drive = 0.0_wp, gallery = 0.0_wp
       !> On the gas in the cylinder [W]
       real(wp) :: gas = 0.0_wp
-      !> Losses, the rows of `torque_list` [W]; damping is one of them, the sum of those below
+      !> Losses, the rows of `torque_list` [W]; damping, and damping that the gas pays, are together the sum of those below
       real(wp) :: losses(torque_count) = 0.0_wp
       !> Losses of each damper [W]
       real(wp) :: dampers(damper_count) = 0.0_wp
@@ -83,13 +83,29 @@ contains
       end associate
       if (allocated(model%flexible%adjuster)) call add_oil(model, now, powers)
       powers%stored = stored_rate(model, state, now)
-      powers%losses(of_damping) = sum(powers%dampers)
+      powers%losses(of_gas_damping) = gas_share(model, now)*sum(powers%dampers)
+      powers%losses(of_damping) = sum(powers%dampers) - powers%losses(of_gas_damping)
       powers%residual = powers%drive + powers%gallery - powers%gas
       do i = 1, torque_count
          powers%residual = powers%residual - powers%losses(i)
       end do
       powers%residual = powers%residual - powers%spin - powers%stored
    end subroutine evaluate_powers
+
+   !> Part of what dampers take that gas on a closed valve pays: that of the gas in gas and inertia, which bring energy to the seat
+   !> and to the finger. The spring gives while the valve sinks what it takes while it rises; inertia brings that of an impact.
+   pure function gas_share(model, now) result(share)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Everything at the state
+      type(flexible_state_t), intent(in) :: now
+      !> The part [-]
+      real(wp) :: share
+
+      share = 0.0_wp
+      if (now%gas_force > 0.0_wp .and. now%seat%elastic > 0.0_wp) share = now%gas_force/(now%gas_force &
+         & + model%train%valve_mass*abs(now%valve_acceleration))
+   end function gas_share
 
    !> Powers of the oil: from the gallery, and lost in leak, check valve and the plunger's gap.
    pure subroutine add_oil(model, now, powers)

@@ -15,8 +15,8 @@ module camroller_state
    use camroller_flexible_parts, only : damper_count
    use camroller_spring_modes, only : most_modes
    use camroller_torque, only : cam_torque, contact_power, normal_direction
-   use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
-      & of_residual, of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag
+   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_contact, of_needle, of_guide, &
+      & of_roller_inertia, of_residual, of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag
    implicit none
    private
 
@@ -352,7 +352,7 @@ contains
       type(state_t), intent(inout) :: state
 
       state%torque_friction = sum(state%torques, mask=is_loss)
-      state%torque_drive = state%torques(of_geometric) + state%torque_friction + state%torques(of_roller_inertia)
+      state%torque_drive = sum(state%torques, mask=is_torque)
    end subroutine add_sums
 
 end module camroller_state

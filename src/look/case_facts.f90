@@ -17,6 +17,7 @@ module camroller_case_facts
    use camroller_minimum, only : minimum_t, narrow_minimum, start_minimum
    use camroller_number_text, only : number_text, fixed_text
    use camroller_result, only : find_quantity, get_summary, result_t, severest
+   use camroller_pivot, only : assumed_inertia
    use camroller_run, only : build_models, run_case
    implicit none
    private
@@ -156,6 +157,7 @@ contains
          if (lobe == 2) call describe_table(case%second_lift, text)
          call describe_cam(models(lobe), trim(merge("second lobe:", "lobe:       ", lobe == 2)), text)
       end do
+      call describe_finger(case, models(1), text)
       call run_case(quick_case(case), result, failure)
       if (allocated(failure)) then
          text = text//"run: "//failure%message//new_line("a")
@@ -181,6 +183,25 @@ contains
       quick = case
       if (allocated(case%dynamics) .and. .not. case%numerics%tolerance > 0.0_wp) quick%numerics%tolerance = quick_tolerance
    end function quick_case
+
+   !> Inertia of the finger, by which limits of contact and joint go, and whether it is that of no finger in particular.
+   subroutine describe_finger(case, model, text)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its first model
+      type(model_t), intent(in) :: model
+      !> Lines so far
+      character(len=:), allocatable, intent(inout) :: text
+
+      text = text//"finger: inertia about its pivot "//number_text(model%train%finger_inertia, digits)//" kg m2"
+      if (.not. abs(model%train%finger_inertia - assumed_inertia(case%masses%finger, case%mechanism%pivot_to_pad)) > 0.0_wp) then
+         text = text//", as if all of its mass were at the pad; real ones have less (masses.finger_inertia_kg_m2), which lifts "// &
+            & "the speeds at which contact is lost and the joint unloads"
+      end if
+      if (allocated(model%pivot)) text = text//"; centre of mass "//number_text(1.0e3_wp*model%pivot%centre, digits)// &
+         & " mm from it"
+      text = text//new_line("a")
+   end subroutine describe_finger
 
    !> Oil and surfaces.
    subroutine describe_oil(case, model, text)

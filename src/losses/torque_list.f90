@@ -3,6 +3,9 @@
 !> A loss has one row here and one line in `camroller_state` that calls its formula. Its series, its mean and extremes, its power
 !> and work, its part of the friction mean effective pressure and its term of the energy balance follow from the row.
 !>
+!> What gas on a closed valve loses in dampers comes back in the torque against gas force with the other sign: both are part of what
+!> drives the camshaft, where they cancel, and neither is friction.
+!>
 !> A vector of torques holds one value for each row, in this order; last stands the energy residual, in watts.
 module camroller_torque_list
    use camroller_names, only : name_length
@@ -11,17 +14,18 @@ module camroller_torque_list
 
    public :: torque_list, torque_count, is_loss, is_torque, torque_series
    public :: of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, &
-      & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_residual
+      & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_gas_damping, of_residual
 
    !> Rows of the list
    enum, bind(C)
       enumerator :: of_geometric = 1, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, &
-         & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_residual
+         & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_gas_damping, of_residual
    end enum
 
-   !> Kinds of rows: energy that comes back, energy that is lost, the error of the energy balance
+   !> Kinds of rows: energy that comes back, energy that is lost, energy lost that the gas in the cylinder pays and no camshaft,
+   !> the error of the energy balance
    enum, bind(C)
-      enumerator :: kind_stored = 1, kind_loss, kind_residual
+      enumerator :: kind_stored = 1, kind_loss, kind_gas_loss, kind_residual
    end enum
 
    !> One row
@@ -54,6 +58,8 @@ module camroller_torque_list
       torque_row_t("pivot", "torque for friction at the finger's pivot", "finger_pivot", kind_loss, "pivot"), &
       torque_row_t("needle_drag", "torque for the oil in the roller's bearing", "needle_drag", kind_loss, "needle drag"), &
       torque_row_t("shaft_drag", "torque for the seals and the drive of the camshaft", "shaft_drag", kind_loss, "seals, drive"), &
+      torque_row_t("gas_damping", "torque for what dampers take from gas on a closed valve", "dynamics", kind_gas_loss, &
+      & "gas damping"), &
       torque_row_t("residual", "drive power less losses less stored power", "torque", kind_residual, "")]
 
    !> Number of rows

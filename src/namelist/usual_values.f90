@@ -24,6 +24,8 @@ module camroller_usual_values
       usual_t("mechanism.pivot_to_roller_mm", 8.0_wp, 60.0_wp), &
       usual_t("mechanism.pivot_to_pad_mm", 15.0_wp, 120.0_wp), &
       usual_t("mechanism.pivot_to_cam_mm", 15.0_wp, 100.0_wp), &
+      ! The cam stands over the finger, between its pivot and the valve
+      usual_t("mechanism.valve_axis_angle_deg", 5.0_wp, 70.0_wp), &
       usual_t("mechanism.base_radius_mm", 6.0_wp, 60.0_wp), &
       usual_t("mechanism.contact_width_mm", 2.0_wp, 60.0_wp), &
       usual_t("mechanism.grinding_wheel_radius_mm", 10.0_wp, 500.0_wp), &

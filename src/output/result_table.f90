@@ -12,7 +12,7 @@ module camroller_result_table
    use camroller_number_text, only : integer_text, number_text, right_text
    use camroller_result, only : severest, worse_of
    use camroller_result_columns, only : make_columns, open_result, read_column, table_t
-   use camroller_torque_list, only : torque_count, torque_list, torque_series
+   use camroller_torque_list, only : is_loss, torque_count, torque_list, torque_series
    implicit none
    private
 
@@ -138,9 +138,9 @@ contains
 
       integer :: i
 
-      columns = [(column_t("mean_", torque_series(i), torque_list(i)%heading, "N mm", 1.0e3_wp), i=1, torque_count), &
-         & column_t("mean_", "torque_friction", "all friction", "N mm", 1.0e3_wp), &
-         & column_t("fmep_", "friction", "fmep", "kPa", 1.0e-3_wp), &
+      columns = [(column_t("mean_", torque_series(i), torque_list(i)%heading, "N mm", 1.0e3_wp), i=1, torque_count)]
+      columns = [pack(columns, is_loss), column_t("mean_", "torque_friction", "all friction", "N mm", 1.0e3_wp), &
+         & column_t("fmep_", "friction", "fmep", "kPa", 1.0e-3_wp), pack(columns, .not. is_loss), &
          & column_t("mean_", "slip_ratio", "mean slip", "%", 1.0e2_wp), &
          & column_t("max_", "hertz_pressure", "peak pressure", "GPa", 1.0e-9_wp), &
          & column_t("min_", "film_thickness_min", "smallest film", "um", 1.0e6_wp), &

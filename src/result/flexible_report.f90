@@ -26,7 +26,8 @@ module camroller_flexible_report
    use camroller_result, only : append_history, append_quantity, find_quantity, is_film, lobe_scope, quantity_list_t, &
       & quantity_t, result_t
    use camroller_state, only : state_t
-   use camroller_torque_list, only : is_loss, of_residual, of_roller_inertia, torque_count, torque_series
+   use camroller_torque_list, only : is_loss, of_gas_damping, of_geometric, of_residual, of_roller_inertia, torque_count, &
+      & torque_series
    use camroller_train_outlook, only : find_outlook, outlook_t
    use camroller_trajectory, only : interpolate_state, trajectory_t
    implicit none
@@ -156,8 +157,8 @@ contains
    end subroutine add_held
 
    !> Errors of the means of a turn: from the last turn and the one with a finer tolerance, each with points of its own. They are
-   !> relative to the mean magnitude of their series, those of torques to the mean of all losses, those of powers of dampers to it
-   !> at least.
+   !> relative to the mean magnitude of their series, or to what counts as none of it, those of torques to the mean of all losses,
+   !> those of powers of dampers to it at least. What the gas pays of the losses counts for the two torques that hold it.
    !>
    !> In a period the roller gains no energy: what it has gained or lost of it, where a disturbance hardly decays in a turn, counts
    !> as error of the drive torque, too. As much oil enters an adjuster as leaks. Both turns may lack the same of it: where little
@@ -183,7 +184,7 @@ contains
       type(state_t) :: state
       ! Mean torque of all losses, and that of the roller's inertia [N m]
       real(wp) :: losses, gained
-      integer :: residual, place, first_power, last_power
+      integer :: residual, place, first_power, last_power, row, paid(2)
 
       missing_oil = 0.0_wp
       call start_means(means, size(series), first_torque)
@@ -199,8 +200,12 @@ contains
          torques = losses
          powers = max(powers, model%speed*losses)
       end associate
+      if (allocated(model%gas)) then
+         paid = [(find_quantity(series, trim(torque_series(row))), row=of_geometric, of_gas_damping, of_gas_damping - of_geometric)]
+         means%size(paid) = losses + means%torques(of_gas_damping)
+      end if
       mean_errors = 0.0_wp
-      where (means%size > 0.0_wp) mean_errors = error_share*abs(means%mean - finer%mean)/means%size
+      where (means%size > 0.0_wp) mean_errors = error_share*abs(means%mean - finer%mean)/max(means%size, series%least)
       if (allocated(model%flexible%adjuster) .and. solution%cycle%period == 1) then
          missing_oil = abs(means%oil(1) - means%oil(2))/max(maxval(abs(means%oil)), tiny(1.0_wp))
          place = find_quantity(series, "check_valve_flow")

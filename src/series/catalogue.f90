@@ -15,7 +15,7 @@ module camroller_catalogue
       & scope_case, scope_engine, scope_length, take_quantities
    use camroller_axial_table, only : axial_state_t
    use camroller_part_series, only : add_asperities, add_axial, add_axial_film, add_bearings, add_heat, add_pin, &
-      & add_surfaces, bearing_count, least_force
+      & add_surfaces, bearing_count, least_force, least_share
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
@@ -29,8 +29,6 @@ module camroller_catalogue
 
    !> Beginning of the names of series of one of several camshafts
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
-   !> Part of the friction that counts as none [-]: no friction is known to so many digits
-   real(wp), parameter :: least_share = 1.0e-12_wp
    !> Coefficient of a friction that has no share: far below the rounding of the load [-]
    real(wp), parameter :: no_friction = 1.0e-20_wp
 

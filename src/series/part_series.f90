@@ -27,11 +27,13 @@ module camroller_part_series
    private
 
    public :: add_asperities, add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
-      & bearing_series_count, largest_pressure, least_force, load_part, thinnest_film
+      & bearing_series_count, largest_pressure, least_force, least_share, load_part, thinnest_film
 
-   !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less counts as none, of asperities and of
-   !> friction in joints
-   real(wp), parameter :: least_force = 1.0e-9_wp, least_area = 1.0e-20_wp
+   !> Part of a friction or a load that counts as none [-]: coefficients of friction are known to two digits
+   real(wp), parameter :: least_share = 1.0e-6_wp
+   !> Force that counts as none, of asperities and of friction in joints: so small a part of a newton [N]; area of asperities that
+   !> bear it with 1 GPa [m^2]
+   real(wp), parameter :: least_force = least_share, least_area = 1.0e-9_wp*least_force
    !> Wear that counts as none: less than an atom in ten thousand million turns [m], or in three hundred years [m/s]
    real(wp), parameter :: least_wear = 1.0e-20_wp, least_wear_rate = 1.0e-20_wp
    !> What the name of a series of the first part of the load on a bearing ends with; that of the second part follows it
@@ -231,7 +233,7 @@ contains
          & "needle_bearing", pin%eccentricity)
       call add(list, "pin_film_min", "m", "smallest film between roller and pin", "needle_bearing", pin%film)
       call add(list, "pin_asperity_share", "1", "load of the asperities along the line of centres relative to the pin's load", &
-         & "needle_bearing", pin%asperity_share)
+         & "needle_bearing", pin%asperity_share, least=least_share)
    end subroutine add_pin
 
    !> Series of the contact along the roller.

@@ -25,7 +25,7 @@ module camroller_camshaft_statistics
    use camroller_sorting, only : find_order
    use camroller_state, only : state_t
    use camroller_torque_list, only : torque_count, torque_series, of_bearings, of_contact, of_damping, of_geometric, &
-      & of_guide_side, of_needle, of_needle_drag, of_pivot, of_residual, of_roller_inertia, of_seal, of_tip
+      & of_gas_damping, of_guide_side, of_needle, of_needle_drag, of_pivot, of_residual, of_roller_inertia, of_seal, of_tip
    implicit none
    private
 
@@ -370,7 +370,7 @@ contains
       real(wp), allocatable :: angles(:)
 
       integer, parameter :: telling(*) = [of_geometric, of_contact, of_needle, of_roller_inertia, of_damping, of_tip, of_seal, &
-         & of_guide_side, of_pivot, of_needle_drag]
+         & of_guide_side, of_pivot, of_needle_drag, of_gas_damping]
       ! Torques at the points [N m]
       real(wp), allocatable :: torques(:, :)
       integer :: i

@@ -9,7 +9,7 @@ module camroller_pivot
    implicit none
    private
 
-   public :: pivot_t, new_pivot, pivot_force
+   public :: pivot_t, new_pivot, pivot_force, assumed_inertia, assumed_centre
 
    !> Distance of a finger's centre of mass from its pivot where none is given [m]
    real(wp), parameter :: usual_centre = 20.0e-3_wp
@@ -30,6 +30,32 @@ module camroller_pivot
 
 contains
 
+   !> Inertia of a finger about its pivot where none is given: that of all of its mass at the pad.
+   elemental function assumed_inertia(mass, pivot_to_pad) result(inertia)
+      !> Mass of the finger with its roller [kg]
+      real(wp), intent(in) :: mass
+      !> Distance from the pivot to the pad [m]
+      real(wp), intent(in) :: pivot_to_pad
+      !> The inertia [kg m^2]
+      real(wp) :: inertia
+
+      inertia = mass*pivot_to_pad**2
+   end function assumed_inertia
+
+   !> Distance of a finger's centre of mass from its pivot where none is given: a usual one, or the radius of gyration about the
+   !> pivot where that is less; zero without a mass.
+   elemental function assumed_centre(mass, inertia) result(centre)
+      !> Mass of the finger with its roller [kg]
+      real(wp), intent(in) :: mass
+      !> Its inertia about the pivot [kg m^2]
+      real(wp), intent(in) :: inertia
+      !> The distance [m]
+      real(wp) :: centre
+
+      centre = 0.0_wp
+      if (mass > 0.0_wp) centre = min(usual_centre, sqrt(inertia/mass))
+   end function assumed_centre
+
    !> The joint of a finger.
    subroutine new_pivot(pivot, mass, inertia, centre, valve_axis_angle, tilt, error)
       !> The joint
@@ -43,19 +69,21 @@ contains
       !> Deck error where no finger of this mass and inertia has its centre of mass so far out
       type(error_t), allocatable, intent(out) :: error
 
+      ! Part of the radius of gyration that is rounding of a number in mm [-]
+      real(wp), parameter :: rounding = 1.0e-12_wp
       ! Radius of gyration about the pivot [m]
       real(wp) :: gyration
 
       gyration = sqrt(inertia/mass)
       pivot%mass = mass
-      pivot%centre = min(usual_centre, gyration)
+      pivot%centre = assumed_centre(mass, inertia)
       if (centre > 0.0_wp) pivot%centre = centre
       pivot%tilt = tilt
       pivot%tilt_cosine = cos(tilt)
       pivot%axis_angle = valve_axis_angle + tilt
       pivot%axis_cosine = cos(pivot%axis_angle)
       pivot%axis_sine = sin(pivot%axis_angle)
-      if (pivot%centre <= gyration) return
+      if (pivot%centre <= (1.0_wp + rounding)*gyration) return
       call raise(error, kind_deck, "the finger's centre of mass, masses.finger_centre_mm = "// &
          & fixed_text(1.0e3_wp*pivot%centre, 3)//", lies beyond its radius of gyration about the pivot, "// &
          & fixed_text(1.0e3_wp*gyration, 3)//" mm; lower it or masses.finger_kg, or raise masses.finger_inertia_kg_m2")

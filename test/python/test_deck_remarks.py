@@ -121,6 +121,9 @@ def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
     assert remarks_of(camroller, "decks/three_cam_head.nml", f"gas_force.table={table}", "gas_force.pressure_unit=Pa") == []
 
 
+PULLED_OFF = "cam and valve pull the finger off its pivot even at rest, most of all at a lift of "
+
+
 @pytest.mark.parametrize(("deck", "groups", "values", "words"), [
     ("thesis", "", ["roller.mass_kg=0.05"], ["is not below masses.finger_kg = 0.0418", "would have 33 g/cm^3"]),
     ("thesis", "", ["roller.mass_kg=0.001"], ["would have 0.66 g/cm^3; steel has 7.8"]),
@@ -160,6 +163,11 @@ def test_a_pressure_table_in_another_unit_gives_a_remark(camroller, tmp_path):
     ("three_cam_head", "", ["cam_bearings.cam_positions_mm=24,24,124"], ["cams 1 and 2 are 0 mm apart"]),
     ("three_cam_head", "", ["cam_bearings.cam_positions_mm=24,38,124"], []),
     ("four_cylinder", "", ["cam_bearings.cam_cylinders=1,1,1,1,2,2,2,2"], ["2 cylinders of 4 without a cam"]),
+    # radians, another angle, another sign, one dimension off
+    ("thesis", "", ["mechanism.valve_axis_angle_deg=0.6545"], ["did you mean 37.5001 degree, which is 0.6545 rad?"]),
+    ("thesis", "", ["mechanism.valve_axis_angle_deg=58"], [PULLED_OFF]),
+    ("thesis", "", ["mechanism.valve_axis_angle_deg=-37.5"], ["is unusual: engines have 5 to 70 degree", PULLED_OFF]),
+    ("thesis", "", ["mechanism.adjuster_tilt_deg=-80"], [PULLED_OFF]),
     ("four_cylinder", "", ["operating_point.speed_rpm=7000", "lubricant.hths_viscosity_mPa_s=3"], ["speed_rpm=7000' is not used by the sweep"]),
     ("four_cylinder", "", ["lubricant.viscosity_at_40_degC_mm2_s=16", "lubricant.hths_viscosity_mPa_s=3.9"],
      ["16 mm^2/s at 40 degC and 11 at 100 degC are unusual: a viscosity index above 300"]),

@@ -123,6 +123,46 @@ def test_the_event_is_told_from_its_start_to_its_end(camroller, values, words):
     assert f"lobe: {words}" in done(camroller, "check", "decks/thesis.nml", "--no-sweep", *(w for v in values for w in ("--set", v))).stdout
 
 
+def test_check_and_result_show_the_finger_that_is_assumed(camroller, tmp_path):
+    """Its inertia moves the limits of contact and joint, so that nobody should have to guess it."""
+    words = ["--no-sweep", "--set", "masses.finger_kg=0.05"]
+    text = done(camroller, "check", "decks/thesis.nml", *words).stdout
+    assert "finger: inertia about its pivot 6.3e-5 kg m2, as if all of its mass were at the pad; real ones have less" in text
+    assert re.search(r"finger_inertia_kg_m2 = (6\.30\d+|6\.3)e-5 +! default\n *finger_centre_mm = 20 +! default", text, re.I), text
+    done(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "assumed.h5", "--quiet", *words)
+    given = ["--set", "masses.finger_inertia_kg_m2=2e-5"]
+    text = done(camroller, "check", "decks/thesis.nml", *words, *given).stdout
+    assert "finger: inertia about its pivot 2e-5 kg m2; centre of mass 20 mm from it" in text
+    # The radius of gyration is less than the usual 20 mm
+    text = done(camroller, "check", "decks/thesis.nml", *words, "--set", "masses.finger_inertia_kg_m2=5e-6").stdout
+    assert "centre of mass 10 mm from it" in text and re.search(r"finger_centre_mm = (10|10\.0+\d*|9\.9+\d*) +! default", text), text
+    with h5py.File(tmp_path / "assumed.h5") as file:
+        inertia, centre = (file[f"deck/values/masses.{key}"] for key in ("finger_inertia_kg_m2", "finger_centre_mm"))
+        assert inertia[()] == pytest.approx(0.05 * 0.0355**2, rel=1e-14) and centre[()] == pytest.approx(20, rel=1e-14)
+        assert inertia.attrs["given"] == centre.attrs["given"] == "default"
+        margin = file["summary/margin_pivot_speed"][0]
+    # A finger without a mass has no joint, and no centre of mass
+    deck = (ROOT / "decks/thesis.nml").read_text().replace("finger_kg = 0.0418", "finger_inertia_kg_m2 = 5.3e-5\n")
+    assert "finger_centre_mm" not in done(camroller, "check", "-", "--no-sweep", input=deck).stdout
+    # In a sweep each case assumes its own
+    done(camroller, "sweep", "decks/thesis.nml", "-o", tmp_path / "sweep.h5", "--quiet", "--set", "sweep.key_1=masses.finger_kg", "--set",
+         "sweep.values_1=0.05,0.04", "--set", "sweep.values_2=60")
+    with h5py.File(tmp_path / "sweep.h5") as file:
+        assert file["summary/margin_pivot_speed"][0] != file["summary/margin_pivot_speed"][1]
+    assert margin > 0
+
+
+def test_a_lift_out_of_reach_names_all_that_may_be_wrong(camroller):
+    values = {"pivot_to_roller_mm": 17.5, "pivot_to_pad_mm": 30, "pivot_to_cam_mm": 28, "roller_arm_angle_deg": -3, "valve_axis_angle_deg": 75,
+              "base_radius_mm": 16}
+    words = [word for key, value in values.items() for word in ("--set", f"mechanism.{key}={value}")]
+    told = done(camroller, "check", "decks/thesis.nml", "--no-sweep", *words, "--set", "roller.radius_mm=7.5", code=4).stderr
+    assert "the finger cannot reach the lift of 8.9" in told and "its pad stands at 135 deg from the valve's axis" in told
+    for key in ("pivot_to_pad_mm", "valve_axis_angle_deg", "roller_arm_angle_deg", "base_radius_mm"):
+        assert f"override: mechanism.{key}={values[key]}" in told
+    assert "max_lift_mm" in told
+
+
 def test_the_hollow_is_that_in_which_the_grinding_wheel_must_fit(camroller):
     """Where the acceleration has a corner between two quarters of a degree."""
     values = ["lift.law=segments", "lift.max_lift_mm=8.5", "lift.segment_angles_deg=0,5,20,25.1,29.9,75,110,125,135,142",

@@ -2,13 +2,13 @@
 !> unlike methods may differ by. Each check gives a message, blank where all is well.
 module result_checks
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : two_pi, wp
    use camroller_accuracy, only : is_checked
    use camroller_case, only : camshaft_number, case_t, energy_names
    use camroller_number_text, only : integer_text
    use camroller_remarks, only : film_without_limit, loose_tolerance, missed_extremes, missed_means
    use camroller_result, only : result_t, find_quantity, is_film
-   use camroller_torque_list, only : is_loss, torque_count, torque_series
+   use camroller_torque_list, only : is_loss, is_torque, torque_count, torque_series
    use result_values, only : lost_share, scalar_of, series_of
    implicit none
    private
@@ -31,6 +31,8 @@ module result_checks
    character(len=*), parameter :: damping_name = "damping_power_"
    !> Means that are judged by the mean of all losses
    character(len=*), parameter :: drives(*) = [character(len=21) :: "torque_drive", "torque_geometric", "torque_roller_inertia"]
+   !> Those of them that hold what the gas pays of the losses
+   character(len=*), parameter :: paid(*) = [character(len=18) :: "torque_geometric", "torque_gas_damping"]
 
 contains
 
@@ -172,8 +174,13 @@ contains
          friction = friction + series_of(result, trim(torque_series(i)))
          means(1) = means(1) + scalar_of(result, "mean_"//trim(torque_series(i)))
       end do
-      drive = friction + series_of(result, "torque_geometric") + series_of(result, "torque_roller_inertia")
-      means(2) = means(1) + scalar_of(result, "mean_torque_geometric") + scalar_of(result, "mean_torque_roller_inertia")
+      drive = friction
+      means(2) = means(1)
+      do i = 1, torque_count
+         if (is_loss(i) .or. .not. is_torque(i)) cycle
+         drive = drive + series_of(result, trim(torque_series(i)))
+         means(2) = means(2) + scalar_of(result, "mean_"//trim(torque_series(i)))
+      end do
       scale = maxval(abs(friction)) + maxval(abs(series_of(result, "torque_geometric"))) &
          & + maxval(abs(series_of(result, "torque_roller_inertia")))
       if (.not. all(abs(friction - series_of(result, "torque_friction")) <= rounding*scale)) trouble = trouble//" friction;"
@@ -183,8 +190,8 @@ contains
       if (.not. abs(means(1)*case%operating_point%speed - scalar_of(result, "power_friction")) &
          & <= rounding*scale*case%operating_point%speed) trouble = trouble//" power;"
       if (allocated(case%dynamics)) then
-         if (.not. abs(damping_work(case, result) - scalar_of(result, "work_damping")) <= rounding*scale) trouble = trouble// &
-            & " damping;"
+         if (.not. abs(damping_work(case, result) - scalar_of(result, "work_damping") &
+            & - two_pi*scalar_of(result, "mean_torque_gas_damping")) <= rounding*scale) trouble = trouble//" damping;"
       end if
       if (trouble /= "") trouble = "sums of torques:"//trouble
    end function check_sums
@@ -310,6 +317,7 @@ contains
                & abs(scalar_of(other, "mean_"//name)))
             if (any(drives == name) .or. (is_flexible .and. index(name, "torque_") == 1)) scale = abs(scalar_of(one, &
                & "mean_torque_friction"))
+            if (any(paid == name)) scale = scale + abs(scalar_of(one, "mean_torque_gas_damping"))
             if (index(name, damping_name) > 0) scale = abs(scalar_of(one, "power_friction"))
             scale = max(scale, least_scale(one, name))
             found = max(0.0_wp, difference - least)/max(scale, tiny(1.0_wp))
