@@ -14,7 +14,7 @@ module camroller_lift_table
    implicit none
    private
 
-   public :: new_table_event, fit_event, find_event, estimate_noise, has_even_rows, least_step, median, median_deviate
+   public :: new_table_event, fit_event, find_event, find_gap, estimate_noise, has_even_rows, least_step, median, median_deviate
    public :: noise_reach, no_noise
 
    !> Fewest rows of an event
@@ -64,7 +64,7 @@ contains
       !> What is wrong
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: low, high
+      integer :: low, high, gap
 
       first = 0.0_wp
       last = 0.0_wp
@@ -76,8 +76,12 @@ contains
          call raise(error, kind_deck, "lift table has too few rows with lift")
          return
       end if
-      call check_gaps(angle(low:high), error)
-      if (allocated(error)) return
+      gap = low - 1 + find_gap(angle(low:high))
+      if (gap >= low) then
+         call raise(error, kind_deck, "lift table has a gap from "//fixed_text(angle(gap)/degree, 3)//" to "// &
+            & fixed_text(angle(gap + 1)/degree, 3)//" deg from the nose")
+         return
+      end if
       if (.not. fills_turn(angle(low), angle(high))) call check_ends(lift, low, high, smoothing, error)
       if (allocated(error)) return
       call fit_event(table, angle(low:high), lift(low:high), smoothing, first, last, is_periodic, error)
@@ -172,25 +176,20 @@ contains
       end if
    end subroutine check_lift_table
 
-   !> Refuse an event with rows missing inside: a step much larger than both steps beside it.
-   subroutine check_gaps(angle, error)
-      !> Cam angles of the event [rad]
+   !> Row of an event behind which rows are missing: a step much larger than both steps beside it.
+   pure function find_gap(angle) result(row)
+      !> Cam angles of the event [any]
       real(wp), intent(in) :: angle(:)
-      !> Where rows are missing
-      type(error_t), allocatable, intent(out) :: error
+      !> The first such row; 0 where there is none
+      integer :: row
 
-      integer :: i
-      !> Steps from row to row [rad]
-      real(wp) :: step(size(angle) - 1)
-
-      step = angle(2:) - angle(:size(angle) - 1)
-      do i = 2, size(step) - 1
-         if (step(i) <= gap_ratio*max(step(i - 1), step(i + 1))) cycle
-         call raise(error, kind_deck, "lift table has a gap from "//fixed_text(angle(i)/degree, 3)//" to "// &
-            & fixed_text(angle(i + 1)/degree, 3)//" deg from the nose")
-         return
-      end do
-   end subroutine check_gaps
+      associate (step => angle(2:) - angle(:size(angle) - 1))
+         associate (n => size(step))
+            row = findloc(step(2:n - 1) > gap_ratio*max(step(:n - 2), step(3:)), .true., dim=1)
+         end associate
+      end associate
+      if (row > 0) row = row + 1
+   end function find_gap
 
    !> First and last row of the event: the last zero before it and the first zero after it, where there are any. With noise on the
    !> base circle, rows within it are zero.
