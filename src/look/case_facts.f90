@@ -251,9 +251,8 @@ contains
          & number_text(1.0e6_wp*lift%smoothing, 3)//"; second derivative"// &
          & trim(merge(" of its values", "              ", allocated(lift%given_lift)))//" "// &
          & number_text(1.0e3_wp*noise%given(1), digits)//" to "//number_text(1.0e3_wp*noise%given(2), digits)// &
-         & " mm/rad^2, with smoothing by the noise "//number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "// &
-         & number_text(1.0e3_wp*noise%smoothed(2), digits)//" (residual "//number_text(1.0e6_wp*noise%residual, 2)//" um)"// &
-         & new_line("a")
+         & " mm/rad^2, with smoothing_um = "//number_text(1.0e6_wp*noise%smoothing, 2)//" "// &
+         & number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "//number_text(1.0e3_wp*noise%smoothed(2), digits)//new_line("a")
    end subroutine describe_table
 
    !> One lobe.

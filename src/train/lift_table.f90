@@ -4,7 +4,8 @@
 !> zero, or at noise about zero, is cut to its event, which starts and ends with zero lift, slope and curvature; a table of a full
 !> turn without dwell is periodic. The estimate of the noise takes sixth differences, in which a smooth lift cancels: uncorrelated
 !> noise of standard deviation s has differences of s sqrt(924). Their median is taken, so that the ends of the event and single bad
-!> rows do not count.
+!> rows do not count. Values that were rounded have the noise of rounding at least, which is a step of their grid over sqrt(12): the
+!> median of differences that are whole steps can be smaller.
 module camroller_lift_table
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp, two_pi, degree
@@ -39,6 +40,8 @@ module camroller_lift_table
    integer, parameter :: order = 6
    !> Sum of their squared coefficients; median of the size of a normal deviate [-]
    real(wp), parameter :: squares = 924.0_wp, median_deviate = 0.6745_wp
+   !> Part of the largest lift below which a difference is rounding of the machine [-]
+   real(wp), parameter :: machine_rounding = 1.0e-9_wp
 
 contains
 
@@ -257,7 +260,7 @@ contains
       end if
    end subroutine check_ends
 
-   !> Estimate the noise of a table.
+   !> Estimate the noise of a table. Its first and last row do not count: they may have been set to zero.
    pure subroutine estimate_noise(angle, lift, noise, is_known)
       !> Cam angle, increasing [rad]
       real(wp), intent(in) :: angle(:)
@@ -275,12 +278,36 @@ contains
       n = size(lift)
       is_known = has_even_rows(angle)
       if (.not. is_known) return
-      differences = lift
+      differences = lift(2:n - 1)
       do i = 1, order
          differences = differences(2:) - differences(:size(differences) - 1)
       end do
-      noise = median(abs(differences))/(median_deviate*sqrt(squares))
+      noise = max(median(abs(differences))/(median_deviate*sqrt(squares)), common_step(differences, &
+         & machine_rounding*maxval(abs(lift)))/sqrt(12.0_wp))
    end subroutine estimate_noise
+
+   !> Largest step of which some numbers are multiples, by Euclid's algorithm.
+   pure function common_step(numbers, nothing) result(step)
+      !> The numbers [any]
+      real(wp), intent(in) :: numbers(:)
+      !> What counts as zero, and so as large as the step of numbers without one [any]
+      real(wp), intent(in) :: nothing
+      !> The step [any]
+      real(wp) :: step
+
+      real(wp) :: rest, next ! [any]
+      integer :: i
+
+      step = 0.0_wp
+      do i = 1, size(numbers)
+         rest = abs(numbers(i))
+         do while (rest > nothing)
+            next = abs(step - rest*anint(step/rest))
+            step = rest
+            rest = next
+         end do
+      end do
+   end function common_step
 
    !> Are there enough rows, at even steps, for differences to tell noise from lift? Steps may change slowly, as those of the polar
    !> angles of a contour at even cam angles do: the lift is a smooth function of the row's number then too.
