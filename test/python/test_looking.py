@@ -71,6 +71,12 @@ def test_check_prints_facts_of_the_deck(camroller):
     assert "?" not in text.split("&case")[0]
 
 
+def test_check_tells_no_film_ratio_of_a_contact_that_is_lost(camroller):
+    text = done(camroller, "check", "decks/hard/contact_loss_3200_rpm.nml").stdout
+    assert re.search(r"film ratio [\d.]+ and more, without contact for [\d.]+ % of the cycle\n", text)
+    assert re.search(r"film ratio [\d.]+ to [\d.]+\n", done(camroller, "check", "decks/thesis.nml").stdout)
+
+
 def test_check_tells_the_margins_without_friction_from_the_load_with_it(camroller):
     """A stem seal in cold oil lifts the follower off its cam, which the margins do not know."""
     deck = (ROOT / "decks/thesis.nml").read_text() + "&stem_seal lip_force_N = 5 viscous_drag_N_s_m = 3 reference_viscosity_Pa_s = 0.01 /\n"
