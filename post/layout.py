@@ -290,14 +290,15 @@ class Layout:
         return words
 
     def common_words(self):
-        """What all cases have in common, how many of them have no result, and how many have lost contact."""
+        """What all cases have in common, how many of them have no result, and how many have lost contact, with which lobe."""
         words = [self.name(key, value) for key, value in self.common.items()] if self.is_list else []
         words += [self.name(key, self.panels[0][place]) for place, key in enumerate(self.panel_keys)
                   if len(self.panels) > 1 and not self._differs(place)]
         words += missing_words([status for result, chosen in zip(self.results, self.chosen) for status in status_of(result)[chosen]])
         lost_of = [lost_contact(result) for result in self.results]
-        lost = sum(lost_of[entry.file][entry.case] for entry in self.entries)
-        return words + ([lost_contact_words(lost, len(self.entries))] if lost else [])
+        lost = {lobe: [lobe in lost_of[entry.file] and lost_of[entry.file][lobe][entry.case] for entry in self.entries]
+                for lobe in set().union(*lost_of)}
+        return words + lost_contact_words(lost)
 
 
 def _example(layout):
