@@ -357,11 +357,15 @@ def key_meant(name, *groups):
 
 
 def thin_out(values, most, groups=()):
-    """At most so many of the values, evenly spread, ends included. A group none of which is among them gets one, in the place of its
-    neighbour, or beside it where that is the only one of another group."""
-    if len(values) <= most:
+    """At most so many of the values, evenly spread, ends included: at the same distance where many may stay and that leaves more than
+    half of them. A group none of which is among them gets one, in the place of its neighbour, or beside it where that is the only one of
+    another group."""
+    last = len(values) - 1
+    if last < most:
         return list(values)
-    places = set(np.linspace(0, len(values) - 1, most).round().astype(int).tolist())
+    distances = [distance for distance in range(1, last + 1)
+                 if most > MOST_COLOURS and last % distance == 0 and most // 2 < last // distance + 1 <= most]
+    places = set(range(0, last + 1, distances[0]) if distances else np.linspace(0, last, most).round().astype(int).tolist())
     groups = [{place for place, value in enumerate(values) if value in group} for group in groups]
     for group in (group for group in groups if group):
         if group & places:

@@ -535,6 +535,7 @@ def test_files_with_and_without_a_sweep_meet_in_the_right_panel(tmp_path):
 def test_thinning_keeps_both_ends():
     assert thin_out(list(range(50)), 7)[0] == 0 and thin_out(list(range(50)), 7)[-1] == 49
     assert thin_out([1, 2], 7) == [1, 2]
+    assert thin_out(list(range(41)), 40) == list(range(0, 41, 2)) and len(thin_out(list(range(41)), 7)) == 7
 
 
 def test_the_cycle_is_closed_and_the_event_is_in_the_window(nine):
