@@ -132,7 +132,7 @@ dynamics: build ## a flexible train at four speeds and over all speeds: figures 
 	$(PYTHON) post/plot.py results/unsteady.h5 --figure turns --dpi 80 --output doc/figures
 	build/release/bin/camroller sweep decks/dynamics.nml --set sweep.values_1=$$(seq -s, 500 50 3300) --set sweep.series=all \
 	  --set numerics.tolerance=1e-4 -o results/speeds.h5 --quiet
-	$(PYTHON) post/campbell.py results/speeds.h5 --dpi 80 --output doc/figures/dynamics_campbell.png
+	$(PYTHON) post/campbell.py results/speeds.h5 --dpi 80 --output doc/figures --name dynamics_campbell
 
 install: ## libraries, header, modules and program by CMake, into PREFIX=/usr/local; IO=OFF leaves out what needs HDF5
 	@mkdir -p build

@@ -44,7 +44,9 @@ module camroller_sweep_cost
       integer :: trials = 0, failures = 0
       !> Processor time of a case [s]
       real(wp) :: time = 0.0_wp
-      !> Is the time one of larger tolerances, with the steps that the case's own take over theirs?
+      !> Memory before any case was tried, and what a case added to it at most [byte]
+      real(wp) :: before = 0.0_wp, added = 0.0_wp
+      !> Are time and memory those of larger tolerances, with the steps that the case's own take over theirs?
       logical :: is_estimated = .false.
       !> Numbers of a case with and without series and profiles
       integer :: words_with_series = 0, words = 0
@@ -91,7 +93,7 @@ contains
       fixed = entry_size*(size(echo%keys) + cost%scalars) + len(deck%text)
       fixed_with_series = fixed + entry_size*cost%series
       if (series /= series_none) fixed = fixed_with_series
-      memory = peak_memory() + cores*thread_size + cases*(case_size + copies*widest_value(deck%sweep))
+      memory = cost%before + min(cores, cases)*(cost%added + thread_size) + cases*(case_size + copies*widest_value(deck%sweep))
       text = text//"! memory about "//megabytes(memory)//"; on disk about "// &
          & megabytes(space)//" in parts while it runs, and "//megabytes(space + fixed)//" more for the result file at the end"// &
          & new_line("a")
@@ -142,12 +144,14 @@ contains
       type(ehl_record_t), allocatable :: profiles
       type(error_t), allocatable :: error
       real(wp) :: start, before, now ! [s]
+      real(wp) :: ratio ! of the steps of the case itself to those it is tried with [-]
       ! Of the case as it is run, of the case itself
       type(numerics_t) :: resolved(2)
       integer :: i, trials
 
       trials = min(most_trials, sweep_size(deck%sweep))
       resolved%tolerance = 1.0_wp
+      cost%before = peak_memory()
       call cpu_time(start)
       do i = 1, trials
          call make_sweep_case(deck, case_to_try(i, trials, sweep_size(deck%sweep)), case, error)
@@ -170,7 +174,9 @@ contains
             cost%remarks = cost%remarks + len(remark_lines(result%remarks))
          end if
          call cpu_time(now)
-         cost%time = cost%time + (now - before)*(resolved(1)%tolerance/resolved(2)%tolerance)**(1.0_wp/order)
+         ratio = (resolved(1)%tolerance/resolved(2)%tolerance)**(1.0_wp/order)
+         cost%time = cost%time + ratio*(now - before)
+         cost%added = max(cost%added, ratio*(peak_memory() - cost%before))
          if (now - start > longest_trial) exit
       end do
       cost%time = cost%time/cost%trials

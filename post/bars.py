@@ -9,7 +9,7 @@ import textwrap
 from matplotlib.patches import Patch
 import numpy as np
 
-from layout import MOST_COLOURS, family, thin_out, wrapped
+from layout import MOST_COLOURS, family, wrapped
 from parts import MOST_PANELS, columns_for, wrap_labels
 from quantities import SOURCES, mean_of, source_words
 from units import number
@@ -218,7 +218,8 @@ def _case_axis(axes, layout, colours, panels, labelled=True):
     turned = room < len(names) and longest <= LONGEST_TURNED
     if turned:
         room = int(group / (1.6 * CHARACTER))
-    named = thin_out(range(len(names)), room) if room > 1 or len(names) == 1 else []
+    # each of them, each second one, ...: at even distances none touches the next
+    named = range(0, len(names), -(-len(names) // max(room, 1))) if room > 1 or len(names) == 1 else []
     turned = turned and bool(named)
     starts = [place * (len(colours) + GAP) for place in range(len(panels))]
     ticks = [(start + place, names[place]) for start in starts for place in named]

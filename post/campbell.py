@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draw how a flexible train answers to the speed: spectrum of the spring's surge, its largest force, speed of seating and bounces.
 
-Usage: post/campbell.py FILE [--output FIGURE.png] [--dpi DPI]
+Usage: post/campbell.py FILE [--output DIR] [--name NAME] [--dpi DPI]
 
 FILE is a sweep over the speed alone, of a deck with `&spring_surge`, with its series; cases without are left out. The speed is that of the
 camshaft, also where the deck gives that of an engine's crankshaft. In the map (after Campbell 1924) the force of the
@@ -153,12 +153,14 @@ def main(arguments=None):
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog="campbell.py", description="draw how a flexible train answers to the speed")
     parser.add_argument("file")
-    parser.add_argument("--output", help="figure to write (default: beside the file, its name with _campbell.png)")
+    parser.add_argument("--output", metavar="DIR", help="folder for the figure (default: that of the file)")
+    parser.add_argument("--name", help="its name (default: that of the file with _campbell)")
     parser.add_argument("--dpi", type=DPI, default=100, help="pixels per inch (default: 100)")
     options = parser.parse_args(arguments)
     try:
         result = read_result(options.file)
-        target = Path(options.output) if options.output else result.path.with_name(f"{result.path.stem}_campbell.png")
+        folder = Path(options.output) if options.output else result.path.parent
+        target = folder / f"{options.name or result.path.stem + '_campbell'}.png"
         save_figure(draw(result), target, dpi=options.dpi)
     except ResultError as problem:
         print(f"campbell.py: {problem}", file=sys.stderr)

@@ -1,5 +1,7 @@
 """Which cases of a file have a result, were not computed or have lost contact, and how a figure, a table and a page say so."""
 
+import re
+
 import numpy as np
 
 NOT_COMPUTED = -1  # status of a case that a partial file does not have
@@ -43,13 +45,14 @@ def missing_words(statuses):
     return list(filter(None, [not_computed_words(statuses), f"{count} of {len(statuses)} cases have no result" if count else ""]))
 
 
-def lost_contact_words(count, cases):
-    """In how many cases contact is lost."""
-    return f"contact is lost in {count} of {cases} cases" if cases > 1 else "contact is lost"
-
-
 def lost_contact(result):
-    """For each case: is contact lost for a part of the cycle, by any lobe?"""
-    shares = [share.values for name, share in result.summary.items()
-              if name.endswith("lost_contact_share") and np.shape(share.values) == (result.cases,)]
-    return np.any([share > 0.0 for share in shares], axis=0) if shares else np.zeros(result.cases, dtype=bool)
+    """For each lobe shape, from 1 on, and each case: is contact lost for a part of the cycle?"""
+    found = {re.fullmatch(r"(?:lobe_(\d+)_)?lost_contact_share", name): share.values for name, share in result.summary.items()}
+    return {int(match[1] or 1): np.greater(values, 0.0) for match, values in found.items() if match and np.shape(values) == (result.cases,)}
+
+
+def lost_contact_words(lost):
+    """In how many of some cases contact is lost, by which lobe shape where there are several: parts of a sentence."""
+    several = max(lost, default=1) > 1
+    return [f"contact{several * f' of lobe {lobe}'} is lost" + (len(cases) > 1) * f" in {sum(cases)} of {len(cases)} cases"
+            for lobe, cases in sorted(lost.items()) if any(cases)]

@@ -290,14 +290,15 @@ class Layout:
         return words
 
     def common_words(self):
-        """What all cases have in common, how many of them have no result, and how many have lost contact."""
+        """What all cases have in common, how many of them have no result, and how many have lost contact, with which lobe."""
         words = [self.name(key, value) for key, value in self.common.items()] if self.is_list else []
         words += [self.name(key, self.panels[0][place]) for place, key in enumerate(self.panel_keys)
                   if len(self.panels) > 1 and not self._differs(place)]
         words += missing_words([status for result, chosen in zip(self.results, self.chosen) for status in status_of(result)[chosen]])
         lost_of = [lost_contact(result) for result in self.results]
-        lost = sum(lost_of[entry.file][entry.case] for entry in self.entries)
-        return words + ([lost_contact_words(lost, len(self.entries))] if lost else [])
+        lost = {lobe: [lobe in lost_of[entry.file] and lost_of[entry.file][lobe][entry.case] for entry in self.entries]
+                for lobe in set().union(*lost_of)}
+        return words + lost_contact_words(lost)
 
 
 def _example(layout):
@@ -356,11 +357,15 @@ def key_meant(name, *groups):
 
 
 def thin_out(values, most, groups=()):
-    """At most so many of the values, evenly spread, ends included. A group none of which is among them gets one, in the place of its
-    neighbour, or beside it where that is the only one of another group."""
-    if len(values) <= most:
+    """At most so many of the values, evenly spread, ends included: at the same distance where many may stay and that leaves more than
+    half of them. A group none of which is among them gets one, in the place of its neighbour, or beside it where that is the only one of
+    another group."""
+    last = len(values) - 1
+    if last < most:
         return list(values)
-    places = set(np.linspace(0, len(values) - 1, most).round().astype(int).tolist())
+    distances = [distance for distance in range(1, last + 1)
+                 if most > MOST_COLOURS and last % distance == 0 and most // 2 < last // distance + 1 <= most]
+    places = set(range(0, last + 1, distances[0]) if distances else np.linspace(0, last, most).round().astype(int).tolist())
     groups = [{place for place, value in enumerate(values) if value in group} for group in groups]
     for group in (group for group in groups if group):
         if group & places:

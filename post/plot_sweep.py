@@ -79,8 +79,7 @@ class Sweep:
         # of a group the error of a case, else that a case was not computed
         self.status = [int(of_cases[group].max() if (of_cases[group] > 0).any() else of_cases[group].min()) for group in groups]
         self.failed = np.not_equal(self.status, 0)
-        lost = lost_contact(result)
-        self.lost = np.array([lost[group].any() for group in groups])
+        self.lost = {lobe: np.array([lost[group].any() for group in groups]) for lobe, lost in lost_contact(result).items()}
         for key, quantity in result.sweep.items():
             if key not in gone:
                 values = self._numbers(key, quantity.values)[[group[0] for group in groups]]
@@ -162,7 +161,8 @@ class Sweep:
 
     def is_drawn_lost(self, names):
         """Cases that lose contact and have a value of one of these quantities."""
-        return self.lost & np.any([np.isfinite(self.quantities[name][0]) for name in names], axis=0)
+        lost = np.any([*self.lost.values(), np.zeros(len(self.failed), dtype=bool)], axis=0)
+        return lost & np.any([np.isfinite(self.quantities[name][0]) for name in names], axis=0)
 
     def has_value(self):
         """Cases that have a value of one of the quantities, as the conditions leave them."""
@@ -438,9 +438,8 @@ def _note(figure, sweep, shown, more=(), mark=""):
     words = [f"{sweep.keys[key][1]} = {sweep.label_value(key, value)}" for key, value in _values_of_others(sweep, shown).items()]
     words += [*more, *sweep.remarks, *missing_words(sweep.status)]
     chosen = _where_others_are_first(sweep, shown)
-    lost = int((chosen & sweep.is_drawn_lost(sweep.quantities)).sum())
-    if lost:
-        words.append(lost_contact_words(lost, int(chosen.sum())) + mark)
+    drawn = sweep.is_drawn_lost(sweep.quantities)
+    words += [text + mark for text in lost_contact_words({lobe: (lost & drawn)[chosen] for lobe, lost in sweep.lost.items()})]
     width = max(30, int(14 * figure.get_figwidth()))
     figure.suptitle("\n".join([textwrap.fill(sweep.title, width), *textwrap.wrap(", ".join(words), width)]), fontsize=9)
 

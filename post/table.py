@@ -161,9 +161,10 @@ def left_out(result, groups, count, what) -> list[str]:
 
 def lost_contact_lines(result, cases) -> list[str]:
     """A line that names those of some cases that lose contact; none where there is none."""
-    lost = [case for case, is_lost in zip(cases, lost_contact(result)[cases]) if is_lost]
+    of_lobes = {lobe: is_lost[cases] for lobe, is_lost in lost_contact(result).items()}
+    lost = [case for case, *is_lost in zip(cases, *of_lobes.values()) if any(is_lost)]
     which = f' ({some_numbers(lost)})' if len(cases) > 1 else ''
-    words = lost_contact_words(len(lost), len(cases)).capitalize()
+    words = ', '.join(lost_contact_words(of_lobes)).capitalize()
     # a flexible train, which alone has a period, flies and lands as it would
     effect = '' if 'period_cycles' in result.summary else ': loads and friction of a rigid train are not realistic there'
     return [f'{words}{which}{effect}.'] if lost else []

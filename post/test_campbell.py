@@ -127,6 +127,8 @@ def test_cases_without_series_are_left_out_and_counted(tmp_path, capsys):
 def test_figure_is_written_and_other_sweeps_are_refused(tmp_path, capsys):
     path = write_sweep(tmp_path / "a.h5", [1e-5])
     assert campbell.main([str(path)]) == 0 and (tmp_path / "a_campbell.png").stat().st_size > 10_000
+    assert campbell.main([str(path), "--output", str(tmp_path / "figures"), "--name", "map"]) == 0
+    assert (tmp_path / "figures/map.png").stat().st_size > 10_000
     with h5py.File(path, "a") as file:
         file.move("sweep/operating_point.speed_rpm", "sweep/roller.radius_mm")
     assert campbell.main([str(path)]) == 2

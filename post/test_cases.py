@@ -500,9 +500,25 @@ def test_where_contact_is_lost_there_is_no_film(tmp_path):
     for line in curves(figure.axes[0]):
         assert np.isnan(line.get_ydata()[:-1][lost]).all() and np.nanmin(line.get_ydata()) > 0.0
     assert figure.axes[0].get_yscale() == "log"
-    assert "contact is lost in 9 of 9 cases" in title(figure)
+    assert "contact of lobe 1 is lost in 9 of 9 cases" in title(figure)
     for line in curves(draw("friction", Layout([read_result(path)])).axes[0]):
         assert np.isfinite(line.get_ydata()).all()
+
+
+def test_the_lobe_that_loses_contact_is_named_where_there_are_two(tmp_path):
+    path = write_result(tmp_path / "lost.h5", step=30.0)
+    with h5py.File(path, "a") as file:
+        file["summary/lost_contact_share"] = np.zeros(9)
+        file["summary/lobe_2_lost_contact_share"] = np.arange(9) / 9
+    words = title(draw("load", Layout([read_result(path)]))).replace("\n", " ")
+    assert "contact of lobe 2 is lost in 8 of 9 cases" in words and "contact is lost" not in words
+    with h5py.File(path, "a") as file:
+        file["summary/lost_contact_share"][3] = 0.1
+    words = title(draw("load", Layout([read_result(path)]))).replace("\n", " ")
+    assert "contact of lobe 1 is lost in 1 of 9 cases, contact of lobe 2 is lost in 8 of 9 cases" in words
+    with h5py.File(path, "a") as file:
+        del file["summary/lobe_2_lost_contact_share"]
+    assert "contact is lost in 1 of 9 cases" in title(draw("load", Layout([read_result(path)])))
 
 
 def test_series_and_scalars_that_no_figure_knows_do_no_harm(zipped):

@@ -182,6 +182,19 @@ def test_turns_have_one_axis_in_all_panels(tmp_path):
     assert len({axes.get_xlim() for axes in panels}) == 1
 
 
+def test_labels_of_many_bars_stand_at_even_distances_and_apart(tmp_path):
+    speeds = tuple(500.0 + 100.0 * np.arange(41))
+    path = write_result(tmp_path / "many.h5", speeds=speeds, oils=(60.0,), step=30.0, swept=(SPEED,))
+    figure = draw("overview", Layout([read_result(path)]))
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        if axes.get_xlabel() != "speed [rev/min]":
+            continue
+        boxes = [label.get_window_extent() for label in axes.get_xticklabels()]
+        assert len(boxes) > 10 and len(set(np.diff(axes.get_xticks()))) == 1
+        assert all(left.x1 < right.x0 for left, right in zip(boxes, boxes[1:]))
+
+
 def test_bars_have_the_colours_of_the_curves_and_of_their_legend(tmp_path):
     results = [read_result(write_result(tmp_path / f"{name}.h5", title=name, swept=(), speeds=(600.0,), oils=(60.0,))) for name in "ab"]
     figure = draw("overview", Layout(results))
@@ -552,6 +565,7 @@ def test_files_with_and_without_a_sweep_meet_in_the_right_panel(tmp_path):
 def test_thinning_keeps_both_ends():
     assert thin_out(list(range(50)), 7)[0] == 0 and thin_out(list(range(50)), 7)[-1] == 49
     assert thin_out([1, 2], 7) == [1, 2]
+    assert thin_out(list(range(41)), 40) == list(range(0, 41, 2)) and len(thin_out(list(range(41)), 7)) == 7
 
 
 def test_the_cycle_is_closed_and_the_event_is_in_the_window(nine):

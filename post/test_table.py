@@ -253,11 +253,11 @@ def test_rows_with_lost_contact_are_named(grid):
     with h5py.File(grid, "a") as file:
         file["summary/lobe_2_lost_contact_share"] = np.where(np.isin(np.arange(60), (2, 4, 30)), 0.1, 0.0)
     text = table_of(read_result(grid), ["estimated_error"], rows=5)
-    assert "Contact is lost in 2 of 5 cases (2, 4): loads and friction of a rigid train are not realistic there." in text
-    assert "Contact is lost" not in table_of(read_result(grid), ["estimated_error"], rows=2)
+    assert "Contact of lobe 2 is lost in 2 of 5 cases (2, 4): loads and friction of a rigid train are not realistic there." in text
+    assert "Contact" not in table_of(read_result(grid), ["estimated_error"], rows=2)
     with h5py.File(grid, "a") as file:
         file["summary/period_cycles"] = np.ones(60)
-    assert "Contact is lost in 2 of 5 cases (2, 4)." in table_of(read_result(grid), ["estimated_error"], rows=5)
+    assert "Contact of lobe 2 is lost in 2 of 5 cases (2, 4)." in table_of(read_result(grid), ["estimated_error"], rows=5)
 
 
 def test_of_many_failures_the_first_are_told(grid):

@@ -36,6 +36,7 @@ program main
    use test_spline, only : collect_spline
    use test_lift_segments, only : collect_lift_segments
    use test_lift, only : collect_lift
+   use test_lift_table, only : collect_lift_table
    use test_quadrature, only : collect_quadrature
    use test_panels, only : collect_panels
    use test_minimum, only : collect_minimum
@@ -250,6 +251,7 @@ contains
          new_testsuite("heat_laws", collect_heat_laws), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &
+         new_testsuite("lift_table", collect_lift_table), &
          new_testsuite("lift_segments", collect_lift_segments), &
          new_testsuite("quadrature", collect_quadrature), &
          new_testsuite("asperity", collect_asperity), &

@@ -19,7 +19,8 @@ module camroller_deck_case
    use camroller_deck_profile, only : fill_profile
    use camroller_deck_roller_bearing, only : fill_roller_bearing
    use camroller_deck_joints, only : fill_joints
-   use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table, take_mechanism
+   use camroller_deck_mechanism, only : take_mechanism
+   use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table
    implicit none
    private
 

@@ -143,12 +143,12 @@ contains
       type(lift_noise_t) :: noise
 
       call find_lift_noise(lift, noise)
-      if (.not. noise%is_known .or. lift%smoothing >= noise%noise) return
+      if (.not. noise%is_known) return
       if (all(abs(noise%given) <= large*abs(noise%smoothed))) return
       call add_line(remarks, path//": the "//trim(merge("table", "lift ", allocated(lift%given_lift)))// &
          & " has noise of about "//number_text(1.0e6_wp*noise%noise, 2)// &
          & " um, which makes its second derivative "//number_text(1.0e3_wp*noise%given(1), 3)//" to "// &
-         & number_text(1.0e3_wp*noise%given(2), 3)//" mm/rad^2; with smoothing_um = "//number_text(1.0e6_wp*noise%noise, 2)// &
+         & number_text(1.0e3_wp*noise%given(2), 3)//" mm/rad^2; with smoothing_um = "//number_text(1.0e6_wp*noise%smoothing, 2)// &
          & " in &"//group//" it is "//number_text(1.0e3_wp*noise%smoothed(1), 3)//" to "// &
          & number_text(1.0e3_wp*noise%smoothed(2), 3)//". Loads and the speed at which contact is lost follow it")
    end subroutine remark_noise

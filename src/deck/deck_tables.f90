@@ -9,18 +9,19 @@ module camroller_deck_tables
    use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_complaint, only : complain
+   use camroller_deck_mechanism, only : take_mechanism
    use camroller_deck_table_headings, only : check_heading, wanted_columns
    use camroller_kinematics, only : mechanism_t
    use camroller_lift, only : lift_t
    use camroller_lift_forms, only : closes_triangle, follow_table, kind_contour, kind_valve, table_kind_names, valve_lift_of
-   use camroller_lift_table, only : no_noise, noise_reach
+   use camroller_lift_table, only : find_event, find_gap, no_noise, noise_reach
    use camroller_text_file, only : join_path
    use camroller_table_file, only : check_spacing, columns_t, read_table, table_t
    implicit none
    private
 
    public :: deck_tables_t, kept_table_t, table_groups, find_table, obtain_tables, get_lift_table, get_pressure_table
-   public :: wanted_columns, take_mechanism, ask_crank
+   public :: wanted_columns, ask_crank
 
    !> Groups whose key `table` names a table of two columns
    character(len=*), parameter :: table_groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force"]
@@ -241,7 +242,7 @@ contains
       else if (table%x(first) < nose_degrees - 180.0_wp .or. table%x(last) > nose_degrees + 180.0_wp) then
          call row_mistake(table, merge(first, last, table%x(first) < nose_degrees - 180.0_wp), "the lift must lie within 180 "// &
             & "degrees of the nose at "//number_text(nose_degrees, 6), mistakes)
-      else if (kind /= kind_valve .and. mistakes%count == 0) then
+      else if (mistakes%count == 0) then
          call check_form(settings, group, table, kind, mistakes)
       end if
    end subroutine check_lift
@@ -288,7 +289,7 @@ contains
          & "negative lift                   ", is_contour))//advice, mistakes)
    end subroutine check_rest
 
-   !> Can the roller follow a contour, or be where its lift has it?
+   !> Has the event all rows? Can the roller follow a contour, or be where its lift has it?
    subroutine check_form(settings, group, table, kind, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -296,7 +297,7 @@ contains
       character(len=*), intent(in) :: group
       !> The table
       type(table_t), intent(in) :: table
-      !> `kind_roller` or `kind_contour`
+      !> What it holds
       integer, intent(in) :: kind
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -306,10 +307,19 @@ contains
       ! [rad], [m]
       real(wp), allocatable :: angle(:), lift(:)
       type(error_t), allocatable :: error
-      integer :: i, before, first
+      integer :: i, before, first, low, high
 
-      call take_mechanism(settings, mechanism)
       call take_given(settings, group, table, given, before)
+      call find_event(given%table_angle, given%table_lift, given%smoothing, low, high)
+      i = find_gap(given%table_angle(low:high))
+      if (i > 0) then
+         i = before + low - 1 + i
+         call row_mistake(table, i + 1, "the lift has a gap from "//number_text(table%x(i), 10)//" to "// &
+            & number_text(table%x(i + 1), 10)//", much wider than the distances beside it", mistakes)
+         return
+      end if
+      if (kind == kind_valve) return
+      call take_mechanism(settings, mechanism)
       call follow_table(mechanism, kind, given, first, angle, lift, error)
       if (allocated(error)) then
          call complain(mistakes, settings, group, "table", error%message)
@@ -447,26 +457,6 @@ contains
       lift%given_angle = given%table_angle
       lift%given_lift = given%table_lift
    end subroutine get_lift_table
-
-   !> Dimensions of the mechanism.
-   subroutine take_mechanism(settings, mechanism)
-      !> The settings
-      type(settings_t), intent(in) :: settings
-      !> The dimensions
-      type(mechanism_t), intent(out) :: mechanism
-
-      call take(settings, "mechanism", "pivot_to_roller_mm", mechanism%pivot_to_roller)
-      call take(settings, "mechanism", "pivot_to_pad_mm", mechanism%pivot_to_pad)
-      call take(settings, "mechanism", "pivot_to_cam_mm", mechanism%pivot_to_cam)
-      call take(settings, "mechanism", "roller_arm_angle_deg", mechanism%roller_arm_angle)
-      call take(settings, "mechanism", "valve_axis_angle_deg", mechanism%valve_axis_angle)
-      call take(settings, "mechanism", "adjuster_tilt_deg", mechanism%adjuster_tilt)
-      call take(settings, "mechanism", "base_radius_mm", mechanism%base_radius)
-      call take(settings, "mechanism", "contact_width_mm", mechanism%contact_width)
-      call take(settings, "mechanism", "grinding_wheel_radius_mm", mechanism%grinding_wheel_radius)
-      call take(settings, "mechanism", "rotation", mechanism%rotation)
-      call take(settings, "roller", "radius_mm", mechanism%roller_radius)
-   end subroutine take_mechanism
 
    !> Pressure over one turn from half a turn before full lift, increasing; a last row that repeats the first is left out.
    subroutine get_pressure_table(settings, table, angle, pressure)

@@ -272,9 +272,8 @@ contains
          & number_text(1.0e6_wp*lift%smoothing, 3)//"; second derivative"// &
          & trim(merge(" of its values", "              ", allocated(lift%given_lift)))//" "// &
          & number_text(1.0e3_wp*noise%given(1), digits)//" to "//number_text(1.0e3_wp*noise%given(2), digits)// &
-         & " mm/rad^2, with smoothing by the noise "//number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "// &
-         & number_text(1.0e3_wp*noise%smoothed(2), digits)//" (residual "//number_text(1.0e6_wp*noise%residual, 2)//" um)"// &
-         & new_line("a")
+         & " mm/rad^2, with smoothing_um = "//number_text(1.0e6_wp*noise%smoothing, 2)//" "// &
+         & number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "//number_text(1.0e3_wp*noise%smoothed(2), digits)//new_line("a")
    end subroutine describe_table
 
    !> One lobe.
@@ -322,11 +321,14 @@ contains
 
       ! The one scalar of these that is no smallest value of a series
       character(len=*), parameter :: n = new_line("a"), event_load = "min_event_contact_load"
-      ! Of the speeds that are shown [rev/min over rad/s]
-      real(wp) :: speed_factor
+      ! Of the speeds that are shown [rev/min over rad/s]; part of the cycle without contact [-]
+      real(wp) :: speed_factor, lost_share
       character(len=:), allocatable :: unit
       logical :: has_lash, has_profile
+      type(error_t), allocatable :: missing
 
+      call get_summary(result, prefix//"lost_contact_share", lost_share, missing)
+      if (allocated(missing)) lost_share = 0.0_wp
       has_profile = find_quantity(result%summary, "max_axial_pressure_max") > 0
       associate (turns => model%crank_turns)
          speed_factor = per_minute*merge(turns, 1.0_wp, turns > 0.0_wp)
@@ -335,7 +337,11 @@ contains
       call add_value(name//" contact load up to ", "max_contact_load", 1.0_wp)
       call add_value(" N, pressure up to ", "max_"//trim(severest("hertz_pressure", has_profile)), 1.0e-9_wp)
       call add_value(" GPa, film ratio ", "min_film_ratio", 1.0_wp)
-      call add_value(" to ", "max_film_ratio", 1.0_wp)
+      if (lost_share > 0.0_wp) then
+         text = text//" and more, without contact for "//number_text(100.0_wp*lost_share, digits)//" % of the cycle"
+      else
+         call add_value(" to ", "max_film_ratio", 1.0_wp)
+      end if
       call add_value(n//name//" smallest load of the event ", "margin_event", 1.0_wp)
       has_lash = .false.
       if (allocated(model%flexible)) has_lash = model%flexible%lash > 0.0_wp

@@ -117,7 +117,7 @@ contains
          first = lift%table_angle(1)
          last = lift%table_angle(size(lift%table_angle))
          call find_lift_noise(lift, noise)
-         count = merge(3, 2, noise%is_known .and. abs(noise%noise - lift%smoothing) > 0.0_wp)
+         count = merge(3, 2, noise%is_known .and. abs(noise%smoothing - lift%smoothing) > 0.0_wp)
       end if
       allocate (curves(count, 0:3))
       if (allocated(lift%table_angle)) then
@@ -125,8 +125,9 @@ contains
       end if
       if (count == 3) then
          smoother = lift
-         smoother%smoothing = noise%noise
-         call sample(smoother, first, last, "#e07b00", "smoothing_um = "//number_text(1.0e6_wp*noise%noise, 2), curves(2, :), error)
+         smoother%smoothing = noise%smoothing
+         call sample(smoother, first, last, "#e07b00", "smoothing_um = "//number_text(1.0e6_wp*noise%smoothing, 2), &
+            & curves(2, :), error)
          if (allocated(error)) return
       end if
       call sample(lift, first, last, "#1f4e8c", "as the case has it", curves(count, :), error)

@@ -1,7 +1,8 @@
 !> The same cases with each film law: how far results depend on a choice that no measurement has made.
 !>
-!> In: a case. Out: a table with a line for each law and one with the range over all of them. What several lobe shapes have each is
-!> that of the worst one, as in the table of `run`.
+!> In: a case. Out: a table with a line for each law and one with the range over those that go together with the case's asperities;
+!> laws that a remark of `run` would tell to be outside of their range, or not to go together, are marked. What several lobe shapes
+!> have each is that of the worst one, as in the table of `run`.
 module camroller_laws_page
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -10,6 +11,7 @@ module camroller_laws_page
    use camroller_film, only : film_law_names, law_masjedi_khonsari_rough
    use camroller_names, only : name_length
    use camroller_number_text, only : integer_text, number_text, right_text
+   use camroller_remarks, only : foreign_asperities, outside_range
    use camroller_result, only : find_quantity, get_summary, result_t, severest, worse_of
    use camroller_run, only : run_case
    implicit none
@@ -35,9 +37,28 @@ module camroller_laws_page
       column_t("mean_", "slip_ratio", "mean slip [%]", 1.0e2_wp), &
       column_t("min_", "film_thickness_min", "smallest film [um]", 1.0e6_wp), &
       column_t("min_", "film_ratio", "film ratio", 1.0_wp)]
-   !> Digits of numbers; width of the first column, room between columns and their least width
-   integer, parameter :: digits = 3, first_width = 22, gap = 2, least_width = 16
+   !> Marks of a law: outside of its range; with asperities that do not go with its film
+   character(len=*), parameter :: outside_mark = "*", foreign_mark = "+"
+   !> Digits of numbers; width of the first column, which has two letters before and two marks behind a name; room between columns
+   !> and their least width
+   integer, parameter :: digits = 3, first_width = 2 + maxval(len_trim(film_law_names)) + 2, gap = 2, least_width = 16
    character(len=*), parameter :: n = new_line("a")
+
+   !> What is known of all laws
+   type :: found_t
+      !> Laws with a result, and those of them that the range is of
+      integer :: results = 0, laws = 0
+      !> That range [unit of the column]
+      real(wp) :: smallest(size(columns)) = huge(1.0_wp), largest(size(columns)) = -huge(1.0_wp)
+      !> Is one outside of its published range?
+      logical :: is_outside = .false.
+      !> Why one does not go together with the asperities
+      character(len=:), allocatable :: foreign
+      !> Headings of what is the worst of several lobe shapes, parted by commas
+      character(len=:), allocatable :: worst
+      !> Why the last law has no result, and why the case's own law has none
+      type(error_t), allocatable :: failure, of_own
+   end type found_t
 
 contains
 
@@ -50,64 +71,100 @@ contains
       !> Why the case has no result with its own law, or, where its own film is solved numerically, with any
       type(error_t), allocatable, intent(out) :: error
 
-      type(case_t) :: variant
-      type(result_t) :: result
-      ! Why the law of a line has no result, and why the case's own law has none
-      type(error_t), allocatable :: failure, of_own
-      ! Values of the laws [unit of the column]
-      real(wp) :: values(size(columns)), smallest(size(columns)), largest(size(columns))
-      character(len=:), allocatable :: line, worst
-      integer :: law, i, laws
+      type(found_t) :: found
+      character(len=:), allocatable :: line
+      integer :: law, i
 
+      found%worst = ""
       line = repeat(" ", first_width)
       do i = 1, size(columns)
          line = line//right_text(trim(columns(i)%heading), max(least_width, len_trim(columns(i)%heading)) + gap)
       end do
       text = text//n//line
-      smallest = huge(1.0_wp)
-      largest = -huge(1.0_wp)
-      laws = 0
-      worst = ""
       do law = 1, size(film_law_names)
          if (law == law_masjedi_khonsari_rough .and. .not. case%materials%hardness > 0.0_wp) cycle
-         variant = case
-         variant%effects%select = select_names(select_listed)
-         variant%film%law = film_law_names(law)
-         variant%film%range_policy = "warn"
-         if (allocated(variant%ehl)) deallocate (variant%ehl)
-         call run_case(variant, result, failure)
-         line = merge("> ", "  ", film_law_names(law) == case%film%law .and. .not. allocated(case%ehl))//film_law_names(law)
-         line = line//repeat(" ", max(0, first_width - len(line)))
-         if (allocated(failure)) then
-            text = text//n//line(:first_width)//"  "//failure%message
-            if (line(:1) == ">") of_own = failure
-            cycle
-         end if
-         laws = laws + 1
-         call get_values(result, values, worst, error)
+         call add_law(case, law, found, text, error)
          if (allocated(error)) return
-         smallest = min(smallest, values)
-         largest = max(largest, values)
-         line = line(:first_width)
-         do i = 1, size(columns)
-            line = line//right_text(number_text(values(i), digits), max(least_width, len_trim(columns(i)%heading)) + gap)
-         end do
-         text = text//n//line
       end do
-      if (laws >= 2) then
-         line = "  range of "//integer_text(laws)//" laws"
-         line = line//repeat(" ", max(0, first_width - len(line)))
+      if (found%laws >= 2) then
+         line = padded("  range of "//integer_text(found%laws)//" laws")
          do i = 1, size(columns)
-            line = line//right_text(number_text(smallest(i), digits)//" to "//number_text(largest(i), digits), &
+            line = line//right_text(number_text(found%smallest(i), digits)//" to "//number_text(found%largest(i), digits), &
                & max(least_width, len_trim(columns(i)%heading)) + gap)
          end do
          text = text//n//line
       end if
-      if (worst /= "") text = text//n//"  "//worst//": the worst of all lobe shapes"
+      if (found%is_outside) text = text//n//"  "//outside_mark//" outside its published range; a remark of 'camroller run' "// &
+         & "with it says how far"
+      if (allocated(found%foreign)) text = text//n//"  "//foreign_mark//" left out of the range: "//found%foreign
+      if (found%worst /= "") text = text//n//"  "//found%worst//": the worst of all lobe shapes"
       if (allocated(case%ehl)) text = text//n//"  the film of the deck itself is solved, by &ehl, and follows none of these laws"
-      if (laws == 0 .and. .not. allocated(of_own)) call move_alloc(failure, of_own)
-      call move_alloc(of_own, error)
+      if (found%results == 0 .and. .not. allocated(found%of_own)) call move_alloc(found%failure, found%of_own)
+      call move_alloc(found%of_own, error)
    end subroutine add_laws_table
+
+   !> Line of a law.
+   subroutine add_law(case, law, found, text, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Position of the law in `film_law_names`
+      integer, intent(in) :: law
+      !> What is known of all laws so far
+      type(found_t), intent(inout) :: found
+      !> Lines so far
+      character(len=:), allocatable, intent(inout) :: text
+      !> Usage error where a result lacks a column
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: variant
+      type(result_t) :: result
+      real(wp) :: values(size(columns)) ! [unit of the column]
+      character(len=:), allocatable :: name
+      integer :: i
+
+      variant = case
+      variant%effects%select = select_names(select_listed)
+      variant%film%law = film_law_names(law)
+      variant%film%range_policy = "warn"
+      if (allocated(variant%ehl)) deallocate (variant%ehl)
+      call run_case(variant, result, found%failure)
+      name = merge("> ", "  ", film_law_names(law) == case%film%law .and. .not. allocated(case%ehl))//trim(film_law_names(law))
+      if (allocated(found%failure)) then
+         text = text//n//padded(name)//"  "//found%failure%message
+         if (name(:1) == ">") found%of_own = found%failure
+         return
+      end if
+      found%results = found%results + 1
+      call get_values(result, values, found%worst, error)
+      if (allocated(error)) return
+      if (any(result%remarks%kind == outside_range)) then
+         found%is_outside = .true.
+         name = name//outside_mark
+      end if
+      i = findloc(result%remarks%kind, foreign_asperities, dim=1)
+      if (i > 0) then
+         found%foreign = result%remarks(i)%text
+         name = name//foreign_mark
+      else
+         found%laws = found%laws + 1
+         found%smallest = min(found%smallest, values)
+         found%largest = max(found%largest, values)
+      end if
+      text = text//n//padded(name)
+      do i = 1, size(columns)
+         text = text//right_text(number_text(values(i), digits), max(least_width, len_trim(columns(i)%heading)) + gap)
+      end do
+   end subroutine add_law
+
+   !> A text as wide as the first column.
+   pure function padded(words)
+      !> The text
+      character(len=*), intent(in) :: words
+      !> It with blanks behind it
+      character(len=max(first_width, len(words))) :: padded
+
+      padded = words
+   end function padded
 
    !> Values of the columns.
    subroutine get_values(result, values, worst, error)

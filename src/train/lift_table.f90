@@ -4,7 +4,8 @@
 !> zero, or at noise about zero, is cut to its event, which starts and ends with zero lift, slope and curvature; a table of a full
 !> turn without dwell is periodic. The estimate of the noise takes sixth differences, in which a smooth lift cancels: uncorrelated
 !> noise of standard deviation s has differences of s sqrt(924). Their median is taken, so that the ends of the event and single bad
-!> rows do not count.
+!> rows do not count. Values that were rounded have the noise of rounding at least, which is a step of their grid over sqrt(12): the
+!> median of differences that are whole steps can be smaller.
 module camroller_lift_table
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp, two_pi, degree
@@ -14,7 +15,7 @@ module camroller_lift_table
    implicit none
    private
 
-   public :: new_table_event, fit_event, find_event, estimate_noise, has_even_rows, least_step, median, median_deviate
+   public :: new_table_event, fit_event, find_event, find_gap, estimate_noise, has_even_rows, least_step, median, median_deviate
    public :: noise_reach, no_noise
 
    !> Fewest rows of an event
@@ -39,6 +40,8 @@ module camroller_lift_table
    integer, parameter :: order = 6
    !> Sum of their squared coefficients; median of the size of a normal deviate [-]
    real(wp), parameter :: squares = 924.0_wp, median_deviate = 0.6745_wp
+   !> Part of the largest lift below which a difference is rounding of the machine [-]
+   real(wp), parameter :: machine_rounding = 1.0e-9_wp
 
 contains
 
@@ -64,7 +67,7 @@ contains
       !> What is wrong
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: low, high
+      integer :: low, high, gap
 
       first = 0.0_wp
       last = 0.0_wp
@@ -76,8 +79,12 @@ contains
          call raise(error, kind_deck, "lift table has too few rows with lift")
          return
       end if
-      call check_gaps(angle(low:high), error)
-      if (allocated(error)) return
+      gap = low - 1 + find_gap(angle(low:high))
+      if (gap >= low) then
+         call raise(error, kind_deck, "lift table has a gap from "//fixed_text(angle(gap)/degree, 3)//" to "// &
+            & fixed_text(angle(gap + 1)/degree, 3)//" deg from the nose")
+         return
+      end if
       if (.not. fills_turn(angle(low), angle(high))) call check_ends(lift, low, high, smoothing, error)
       if (allocated(error)) return
       call fit_event(table, angle(low:high), lift(low:high), smoothing, first, last, is_periodic, error)
@@ -172,25 +179,20 @@ contains
       end if
    end subroutine check_lift_table
 
-   !> Refuse an event with rows missing inside: a step much larger than both steps beside it.
-   subroutine check_gaps(angle, error)
-      !> Cam angles of the event [rad]
+   !> Row of an event behind which rows are missing: a step much larger than both steps beside it.
+   pure function find_gap(angle) result(row)
+      !> Cam angles of the event [any]
       real(wp), intent(in) :: angle(:)
-      !> Where rows are missing
-      type(error_t), allocatable, intent(out) :: error
+      !> The first such row; 0 where there is none
+      integer :: row
 
-      integer :: i
-      !> Steps from row to row [rad]
-      real(wp) :: step(size(angle) - 1)
-
-      step = angle(2:) - angle(:size(angle) - 1)
-      do i = 2, size(step) - 1
-         if (step(i) <= gap_ratio*max(step(i - 1), step(i + 1))) cycle
-         call raise(error, kind_deck, "lift table has a gap from "//fixed_text(angle(i)/degree, 3)//" to "// &
-            & fixed_text(angle(i + 1)/degree, 3)//" deg from the nose")
-         return
-      end do
-   end subroutine check_gaps
+      associate (step => angle(2:) - angle(:size(angle) - 1))
+         associate (n => size(step))
+            row = findloc(step(2:n - 1) > gap_ratio*max(step(:n - 2), step(3:)), .true., dim=1)
+         end associate
+      end associate
+      if (row > 0) row = row + 1
+   end function find_gap
 
    !> First and last row of the event: the last zero before it and the first zero after it, where there are any. With noise on the
    !> base circle, rows within it are zero.
@@ -258,7 +260,7 @@ contains
       end if
    end subroutine check_ends
 
-   !> Estimate the noise of a table.
+   !> Estimate the noise of a table. Its first and last row do not count: they may have been set to zero.
    pure subroutine estimate_noise(angle, lift, noise, is_known)
       !> Cam angle, increasing [rad]
       real(wp), intent(in) :: angle(:)
@@ -276,12 +278,36 @@ contains
       n = size(lift)
       is_known = has_even_rows(angle)
       if (.not. is_known) return
-      differences = lift
+      differences = lift(2:n - 1)
       do i = 1, order
          differences = differences(2:) - differences(:size(differences) - 1)
       end do
-      noise = median(abs(differences))/(median_deviate*sqrt(squares))
+      noise = max(median(abs(differences))/(median_deviate*sqrt(squares)), common_step(differences, &
+         & machine_rounding*maxval(abs(lift)))/sqrt(12.0_wp))
    end subroutine estimate_noise
+
+   !> Largest step of which some numbers are multiples, by Euclid's algorithm.
+   pure function common_step(numbers, nothing) result(step)
+      !> The numbers [any]
+      real(wp), intent(in) :: numbers(:)
+      !> What counts as zero, and so as large as the step of numbers without one [any]
+      real(wp), intent(in) :: nothing
+      !> The step [any]
+      real(wp) :: step
+
+      real(wp) :: rest, next ! [any]
+      integer :: i
+
+      step = 0.0_wp
+      do i = 1, size(numbers)
+         rest = abs(numbers(i))
+         do while (rest > nothing)
+            next = abs(step - rest*anint(step/rest))
+            step = rest
+            rest = next
+         end do
+      end do
+   end function common_step
 
    !> Are there enough rows, at even steps, for differences to tell noise from lift? Steps may change slowly, as those of the polar
    !> angles of a contour at even cam angles do: the lift is a smooth function of the row's number then too.

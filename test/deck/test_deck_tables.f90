@@ -195,6 +195,8 @@ contains
       call expect(error, first_rows//last_rows//"240 1"//n, ":14: the lift must end at zero")
       call expect(error, first_rows//last_rows//"240 -1"//n//"250 0", ":14: negative lift")
       call expect(error, "-100 0"//n//first_rows//last_rows, ":3: the table has a gap from -100 to 130")
+      call expect(error, "110 0"//n//"120 0"//n//first_rows//"210 2.5"//n//"220 1"//n//"230 0"//n, ":9: the lift has a gap "// &
+         & "from 170 to 210, much wider than the distances beside it")
       call expect(error, "160 0"//n, ": the table has 1 of at least 8 rows")
       call expect(error, "", ": the table has 0 of at least 8 rows")
    end subroutine table_mistakes

@@ -71,6 +71,12 @@ def test_check_prints_facts_of_the_deck(camroller):
     assert "?" not in text.split("&case")[0]
 
 
+def test_check_tells_no_film_ratio_of_a_contact_that_is_lost(camroller):
+    text = done(camroller, "check", "decks/hard/contact_loss_3200_rpm.nml").stdout
+    assert re.search(r"film ratio [\d.]+ and more, without contact for [\d.]+ % of the cycle\n", text)
+    assert re.search(r"film ratio [\d.]+ to [\d.]+\n", done(camroller, "check", "decks/thesis.nml").stdout)
+
+
 def test_check_tells_the_margins_without_friction_from_the_load_with_it(camroller):
     """A stem seal in cold oil lifts the follower off its cam, which the margins do not know."""
     deck = (ROOT / "decks/thesis.nml").read_text() + "&stem_seal lip_force_N = 5 viscous_drag_N_s_m = 3 reference_viscosity_Pa_s = 0.01 /\n"
@@ -287,13 +293,30 @@ def test_study_of_laws_shows_the_range_that_runs_give(camroller, tmp_path):
              "--point", "oil_temperature_degC=60", "--set", f"film.law={law}")
         with h5py.File(tmp_path / "a.h5") as file:
             slips[law] = 100 * file["summary/mean_slip_ratio"][0]
-        row = next(line.replace(">", " ").split() for line in text.splitlines() if line.replace(">", " ").split()[:1] == [law])
+        row = next(line.replace(">", " ").split() for line in text.splitlines() if re.match(rf"[> ] {law}\*? ", line))
         # three digits are printed
         assert float(row[4]) == pytest.approx(slips[law], rel=5e-3), law
     low, high = min(slips.values()), max(slips.values())
     told = re.findall(r"([\d.e-]+) to ([\d.e-]+)", next(line for line in text.splitlines() if "range of 4 laws" in line))[3]
     assert [float(value) for value in told] == pytest.approx([low, high], rel=5e-3)
     assert "> dowson_higginson" in text
+
+
+def test_study_of_laws_marks_those_that_run_has_a_remark_on(camroller):
+    values = [w for value in ("sweep.values_1=300", "sweep.values_2=95", "materials.hardness_GPa=7") for w in ("--set", value)]
+    text = done(camroller, "study", "decks/thesis.nml", "--laws", *values).stdout
+    lines = text.splitlines()
+    rows = {line[2:].split()[0]: line[2:].split()[1:] for line in lines if re.match(r"[> ] [a-z_]+[*+ ]+ [\d ]", line)}
+    assert {"dowson_higginson*", "masjedi_khonsari_rough*+", "moes"} <= set(rows)
+    assert "  * outside its published range; a remark of 'camroller run' with it says how far" in lines
+    assert "  + left out of the range: film.law 'masjedi_khonsari_rough' and asperity.law 'greenwood_tripp' do not go together" in text
+    slips = [float(row[3]) for name, row in rows.items() if "+" not in name]
+    told = re.findall(r"([\d.e-]+) to ([\d.e-]+)", next(line for line in lines if "range of 4 laws" in line))[3]
+    assert [float(value) for value in told] == [min(slips), max(slips)] and float(rows["masjedi_khonsari_rough*+"][3]) > max(slips)
+    # each in its column
+    assert len({len(line) for line in lines if re.match(r"[> ] [a-z_]+[*+ ]+ [\d ]", line)}) == 1
+    fitting = done(camroller, "study", "decks/thesis.nml", "--laws", *values, "--set", "asperity.law=zhao_maietta_chang").stdout
+    assert "range of 5 laws" in fitting and "left out" not in fitting
 
 
 def test_study_of_laws_ends_with_the_code_of_a_case_without_a_result(camroller):

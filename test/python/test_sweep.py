@@ -136,6 +136,15 @@ def test_check_prints_time_memory_and_disk_space(camroller, deck):
 
 
 @pytest.mark.once
+def test_check_counts_the_memory_of_turns_at_the_tolerance_of_the_case(camroller, tmp_path):
+    """Cases are tried with a larger tolerance, whose turns have fewer points; a quarter of the memory was told."""
+    words = ["check", "decks/lash_adjuster.nml"]
+    told, tried = (float(re.search(r"memory about (\d+) MB", done(camroller, *words, *more).stdout)[1])
+                   for more in ([], ["--set", "numerics.tolerance=1e-6"]))
+    assert 0.5 * tried < told < 2 * tried
+
+
+@pytest.mark.once
 def test_check_counts_the_memory_that_cases_take(camroller, tmp_path):
     """Numbers of 2e9 cases, and words of 16 letters in quotes."""
     deck = write_deck(tmp_path / "deck.nml", "kind = 'sobol' cases = 100 key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 900")
