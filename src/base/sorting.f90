@@ -72,15 +72,17 @@ contains
       values = values(order)
    end subroutine sort
 
-   !> Median, the mean of the two in the middle where their number is even.
+   !> Median, the mean of the two in the middle where their number is even; zero without any.
    pure function median(values) result(middle)
-      !> Numbers, one or more [any]
+      !> Numbers [any]
       real(wp), intent(in) :: values(:)
       !> Their median [any]
       real(wp) :: middle
 
       integer :: order(size(values))
 
+      middle = 0.0_wp
+      if (size(values) == 0) return
       call find_order(values, order)
       associate (n => size(values))
          middle = 0.5_wp*(values(order((n + 1)/2)) + values(order(n/2 + 1)))

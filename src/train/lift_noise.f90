@@ -8,7 +8,8 @@ module camroller_lift_noise
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t
    use camroller_lift, only : evaluate_lift, given_table, lift_law_t, lift_t, new_lift_law
-   use camroller_lift_table, only : estimate_noise, find_event, has_even_rows, median, median_deviate
+   use camroller_lift_table, only : estimate_noise, find_event, has_even_rows, median_deviate
+   use camroller_sorting, only : median
    implicit none
    private
 

@@ -11,11 +11,12 @@ module camroller_lift_table
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_deck
    use camroller_number_text, only : fixed_text
+   use camroller_sorting, only : median
    use camroller_spline, only : spline_t, new_clamped_spline, new_periodic_spline
    implicit none
    private
 
-   public :: new_table_event, fit_event, find_event, find_gap, estimate_noise, has_even_rows, least_step, median, median_deviate
+   public :: new_table_event, fit_event, find_event, find_gap, estimate_noise, has_even_rows, least_step, median_deviate
    public :: noise_reach, no_noise
 
    !> Fewest rows of an event
@@ -324,22 +325,5 @@ contains
             & steps(:size(steps) - 2))) <= (most_uneven - 1.0_wp)*steps(2:size(steps) - 1))
       end associate
    end function has_even_rows
-
-   !> Median of some numbers.
-   pure function median(numbers)
-      !> The numbers [any]
-      real(wp), intent(in) :: numbers(:)
-      !> Their median [any]
-      real(wp) :: median
-
-      integer :: i, rank, below
-
-      median = 0.0_wp
-      rank = (size(numbers) + 1)/2
-      do i = 1, size(numbers)
-         below = count(numbers < numbers(i))
-         if (below < rank .and. below + count(abs(numbers - numbers(i)) <= 0.0_wp) >= rank) median = numbers(i)
-      end do
-   end function median
 
 end module camroller_lift_table
