@@ -219,13 +219,15 @@ contains
       !> Has it?
       logical :: verdict
 
+      character(len=len(key)) :: lower_key
       integer :: i
 
       verdict = .false.
+      lower_key = to_lower(key)
       associate (shape => plan%shapes(plan%parts(part)%file))
          do i = 1, size(shape%assignments)
-            if (shape%assignments(i)%group /= plan%parts(part)%group) cycle
-            verdict = to_lower(shape%assignments(i)%key) == to_lower(key)
+            if (shape%assignments(i)%group /= plan%parts(part)%group .or. len(shape%assignments(i)%key) /= len(key)) cycle
+            verdict = to_lower(shape%assignments(i)%key) == lower_key
             if (verdict) return
          end do
       end associate
