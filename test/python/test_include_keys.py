@@ -1,11 +1,13 @@
 """Decks that change others: keys of the deck that includes a file replace those of the file, and whole groups can be left out."""
 
+import os
 import re
+import sys
 
 import h5py
 import pytest
 
-from conftest import ROOT, done, run
+from conftest import ROOT, done, printed, run
 
 UNFINISHED = 8
 THESIS = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
@@ -170,3 +172,13 @@ def test_one_case_of_a_sweep_that_the_base_gives(camroller, tmp_path):
     with h5py.File(path) as file:
         assert len(file["summary/status"]) == 1 and "sweep" not in file["deck/text"][()].decode()
     assert run(camroller, "rerun", path).returncode == 0
+
+
+def test_a_host_gives_such_a_deck_as_text(installed_package, tmp_path):
+    """The folder that the paths start at goes with it; cases of the sweep are those of the base."""
+    write(tmp_path, base=THESIS)
+    words = ("import camroller, sys\n"
+             "case = camroller.Case.from_text(\"include = 'base.nml'\\n&roller radius_mm = 8 /\\n&sweep values_1 = 300, 600 /\", sys.argv[1])\n"
+             "print(len(list(case.sweep())), case.numbers['roller.radius_mm'])\n")
+    found = printed(sys.executable, "-c", words, tmp_path, env={**os.environ, "PYTHONPATH": str(installed_package)})
+    assert found.split()[0] == "6" and "8" in found
