@@ -11,7 +11,8 @@ module camroller_deck
    use camroller_case_columns, only : column_reader_t
    use camroller_mistakes, only : add_mistake, mistakes_t, raise_mistakes, override_place
    use camroller_text_file, only : read_standard_input, read_text_file, folder_of
-   use camroller_deck_include, only : origins_t, expand_includes, say_origin, place_mistakes
+   use camroller_deck_include, only : expand_includes
+   use camroller_deck_origins, only : origins_t, say_origin, place_mistakes
    use camroller_deck_text, only : deck_text_t, read_shape
    use camroller_text_encoding, only : check_encoding, first_foreign
    use camroller_deck_schema, only : schema_t
@@ -36,7 +37,7 @@ module camroller_deck
       character(len=:), allocatable :: name
       !> Folder that the paths in it start at, with `/` at its end; blank for the present one
       character(len=:), allocatable :: folder
-      !> The deck as given, with the lines of the files that it includes
+      !> The deck as given, with the lines of the files that it includes, but for what it replaces there or leaves out
       character(len=:), allocatable :: text
       !> Where its lines are from
       type(origins_t) :: origins
@@ -114,7 +115,7 @@ contains
       if (mistakes%count > 0) then
          ! What is missing then, or there twice, follows from it
          call read_shape(deck%text, deck%shape, consequences)
-         call place_mistakes(deck%origins, deck%shape%lines, mistakes)
+         call place_mistakes(deck%origins, mistakes)
          call raise_mistakes(mistakes, name, deck%shape%lines, error)
          return
       end if
@@ -168,7 +169,7 @@ contains
       call demand_required(deck%schema, deck%settings, mistakes)
       call complete(deck%settings, deck%folder, deck%tables, mistakes)
       call read_sweep(deck%schema, deck%settings, deck%folder, deck%sweep, mistakes, reader)
-      call place_mistakes(deck%origins, deck%shape%lines, mistakes)
+      call place_mistakes(deck%origins, mistakes)
       call raise_mistakes(mistakes, deck%name, deck%shape%lines, error)
    end subroutine read_text
 
@@ -275,7 +276,7 @@ contains
          call apply_override(deck%schema, overrides(i), settings, mistakes)
       end do
       call complete(settings, deck%folder, tables, mistakes)
-      call place_mistakes(deck%origins, deck%shape%lines, mistakes)
+      call place_mistakes(deck%origins, mistakes)
       call raise_mistakes(mistakes, deck%name, deck%shape%lines, error)
    end subroutine make_settings
 

@@ -340,7 +340,9 @@ contains
       text = "# The deck"//new_line("a")//new_line("a")
       text = text//"A deck is a file of Fortran namelist groups, `&group key = value ... /`; `!` begins a comment. "// &
          & "A line `include = 'file'` outside of groups stands for the lines of that file, named from the folder of the file "// &
-         & "with the line. "// &
+         & "with the line. Its own keys replace those of the file, one by one, wherever the line stands; with "// &
+         & "`include = 'file', without = 'sweep', 'lift'` these groups of the file are left out. A key that two files give of "// &
+         & "which none includes the other is a mistake, unless the file that includes both gives it. "// &
          & "Numbers are in SI units unless the last word of the key is a unit. The group of an effect switches the effect "// &
          & "on. This page is the output of `camroller defaults --markdown`; "// &
          & "`camroller defaults` prints the same as a deck."//new_line("a")//new_line("a")// &

@@ -35,10 +35,11 @@ contains
       do k = 1, size(deck%sweep%axes)
          if (names_files(deck%sweep%axes(k)%key)) count = count + deck%sweep%axes(k)%values%count
       end do
-      allocate (paths(count + size(deck%origins%files)))
+      ! The first of the files is the deck
+      allocate (paths(count + max(0, size(deck%origins%files) - 1)))
       paths(1)%text = deck%name
-      do i = 1, size(deck%origins%files)
-         paths(count + i)%text = deck%origins%files(i)%text
+      do i = 2, size(deck%origins%files)
+         paths(count + i - 1)%text = deck%origins%files(i)%path
       end do
       do i = 1, size(groups)
          call find_path(deck, get_word(deck%settings, trim(groups(i)), "table"), paths(1 + i)%text)

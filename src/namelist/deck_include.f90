@@ -1,41 +1,36 @@
 !> What decks share: a line `include = 'file'` between groups stands for the lines of a file.
 !>
-!> In: the text of a deck. Out: the text with the included lines in their places, and where each line is from, so that a mistake is
-!> told with the line of the file that it stands in. Paths start at the folder of the file that names them.
+!> In: the text of a deck. Out: the text with the included lines in their places, without keys and groups that an including file
+!> replaces or leaves out (`deck_merge.f90`), and where each line is from, so that a mistake is told with the line of the file that
+!> it stands in. Paths start at the folder of the file that names them.
 module camroller_deck_include
+   use camroller_deck_merge, only : merge_files
+   use camroller_deck_origins, only : origins_t, source_file_t, growing_text_t, add_source, add_text_line, grown_text
    use camroller_deck_text, only : to_lower
    use camroller_error, only : error_t
    use camroller_file_facts, only : facts_of_path, is_same_file
    use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_number_text, only : integer_text
    use camroller_text_file, only : folder_of, join_path, read_text_file
-   use camroller_text_lines, only : line_t, line_at, split_lines, text_lines_t
+   use camroller_text_lines, only : line_at, split_lines
    implicit none
    private
 
-   public :: origins_t, expand_includes, place_mistakes, say_origin
+   public :: expand_includes
 
    !> Files that a deck may include, all together, and one within the other
    integer, parameter :: most_files = 100, deepest = 10
-   character(len=*), parameter :: blanks = " "//char(9), word = "include"
+   character(len=*), parameter :: blanks = " "//char(9), word = "include", word_without = "without"
 
-   !> Lines that follow each other in one file
-   type :: span_t
-      !> Line of the whole text with which it begins
-      integer :: first = 1
-      !> File: 0 for the deck
-      integer :: file = 0
-      !> Line of the file with which it begins
-      integer :: line = 1
-   end type span_t
-
-   !> Where the lines of a text are from
-   type :: origins_t
-      !> Included files
-      type(line_t), allocatable :: files(:)
-      !> Spans in order; none where nothing is included
-      type(span_t), allocatable :: spans(:)
-   end type origins_t
+   !> A line that includes a file
+   type :: request_t
+      !> Place of the word and the columns to the end of the line; none where nothing is included
+      integer :: column = 0, width = 0
+      !> Path as it is given; blank where the line is not as it should be
+      character(len=:), allocatable :: path
+      !> Groups to leave out, in lower case, with a blank before and after each
+      character(len=:), allocatable :: without
+   end type request_t
 
 contains
 
@@ -45,165 +40,242 @@ contains
       character(len=*), intent(in) :: text
       !> Folder of the deck, with `/` at its end; blank for the present one
       character(len=*), intent(in) :: folder
-      !> Text with all included lines
+      !> A deck by itself: text with all included lines that count
       character(len=:), allocatable, intent(out) :: whole
       !> Where its lines are from
       type(origins_t), intent(out) :: origins
-      !> Mistakes so far: files that cannot be read
+      !> Mistakes so far: files that cannot be read, keys that two files give of which none includes the other
       type(mistakes_t), intent(inout) :: mistakes
 
-      integer :: lines, before
+      type(source_file_t) :: deck
+      type(growing_text_t) :: growing
+      integer :: before
 
       before = mistakes%count
-      allocate (origins%files(0), origins%spans(0))
-      if (index(to_lower(text), word) == 0) then
-         whole = text
+      whole = text
+      allocate (origins%files(0), origins%places(2, 0))
+      if (index(to_lower(text), word) == 0) return
+      deck%path = ""
+      deck%without = " "
+      call split_lines(text, deck%lines)
+      call add_source(origins%files, deck)
+      call add_file(1, folder, 0, growing, origins%files, mistakes)
+      if (size(origins%files) == 1 .and. mistakes%count == before) then
+         origins%files = origins%files(:0)
          return
       end if
-      whole = ""
-      lines = 0
-      call add_file(text, folder, [integer ::], whole, lines, origins, mistakes)
-      if (size(origins%files) == 0 .and. mistakes%count == before) origins%spans = origins%spans(:0)
+      call grown_text(growing, whole, origins%places)
+      if (mistakes%count == before) call merge_files(whole, origins, mistakes)
    end subroutine expand_includes
 
-   !> Add the lines of one file, and of those that it includes.
-   recursive subroutine add_file(text, folder, chain, whole, lines, origins, mistakes)
-      !> Text of the file
-      character(len=*), intent(in) :: text
+   !> Add the lines of one file, and of those that it includes. Lines that include become comments.
+   recursive subroutine add_file(file, folder, depth, whole, files, mistakes)
+      !> Position of the file
+      integer, intent(in) :: file
       !> Its folder
       character(len=*), intent(in) :: folder
-      !> Numbers of the files by which the deck includes it, its own last; none for the deck
-      integer, intent(in) :: chain(:)
+      !> How many files lie between it and the deck, itself counted
+      integer, intent(in) :: depth
       !> Text so far
-      character(len=:), allocatable, intent(inout) :: whole
-      !> Lines of it
-      integer, intent(inout) :: lines
-      !> Where they are from
-      type(origins_t), intent(inout) :: origins
+      type(growing_text_t), intent(inout) :: whole
+      !> Files so far
+      type(source_file_t), allocatable, intent(inout) :: files(:)
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      type(text_lines_t) :: parts
+      type(source_file_t) :: next
+      type(request_t) :: request
       type(error_t), allocatable :: error
-      character(len=:), allocatable :: path, included, reason
+      character(len=:), allocatable :: included, reason, line
       logical :: is_open
-      integer :: i, first, column, width, file
+      integer :: i
 
-      file = 0
-      if (size(chain) > 0) file = chain(size(chain))
-      call split_lines(text, parts)
-      call add_span(origins, lines + 1, file, 1)
       is_open = .false.
-      first = 1
-      do i = 1, parts%count
-         call find_include(text(parts%first(i):parts%last(i)), is_open, path, column, width)
-         if (width == 0) cycle
-         call add_lines(i)
-         reason = ""
-         if (len(path) == 0) then
-            reason = "expected include = 'file', one file in a line"
-         else
-            call say_circle(origins, chain, join_path(folder, path), reason)
+      do i = 1, files(file)%lines%count
+         line = line_at(files(file)%lines, i)
+         call find_include(line, is_open, request)
+         if (request%width == 0) then
+            call add_text_line(whole, line, [file, i])
+            cycle
          end if
-         if (reason == "" .and. (size(chain) == deepest .or. size(origins%files) == most_files)) then
-            reason = "more than "//integer_text(merge(deepest, most_files, size(chain) == deepest))//" included files"
+         call add_text_line(whole, "! "//line, [file, i])
+         next%path = join_path(folder, request%path)
+         next%parent = file
+         next%parent_line = whole%lines
+         next%without = request%without
+         reason = ""
+         if (len(request%path) == 0) then
+            reason = "expected include = 'file', one file in a line, or include = 'file', without = 'group', ..."
+         else
+            call say_circle(files, file, next%path, reason)
+         end if
+         if (reason == "" .and. (depth == deepest .or. size(files) > most_files)) then
+            reason = "more than "//integer_text(merge(deepest, most_files, depth == deepest))//" included files"
          else if (reason == "") then
-            call read_text_file(join_path(folder, path), included, error)
+            call read_text_file(next%path, included, error)
             if (allocated(error)) reason = error%message
          end if
          if (reason /= "") then
-            call add_mistake(mistakes, reason, lines, column, width)
+            call add_mistake(mistakes, reason, whole%lines, request%column, request%width)
             cycle
          end if
-         call add_name(origins, join_path(folder, path))
-         call add_file(included, folder_of(join_path(folder, path)), [chain, size(origins%files)], whole, lines, &
-            & origins, mistakes)
-         call add_span(origins, lines + 1, file, i + 1)
+         call split_lines(included, next%lines)
+         call add_source(files, next)
+         call add_file(size(files), folder_of(next%path), depth + 1, whole, files, mistakes)
       end do
-      call add_lines(parts%count)
-
-   contains
-
-      !> Add the lines that are not there yet, up to one of them, which includes a file and becomes a comment; or to the last.
-      subroutine add_lines(last)
-         !> Number of the line
-         integer, intent(in) :: last
-
-         character(len=:), allocatable :: more
-
-         if (last < first) return
-         more = text(parts%first(first):parts%last(last))
-         if (width > 0) more = text(parts%first(first):parts%first(last) - 1)//"! "//text(parts%first(last):parts%last(last))
-         whole = whole//more//new_line("a")
-         lines = lines + last - first + 1
-         first = last + 1
-      end subroutine add_lines
-
    end subroutine add_file
 
    !> Say that a file would include itself, directly or by others.
-   subroutine say_circle(origins, chain, path, words)
-      !> Included files
-      type(origins_t), intent(in) :: origins
-      !> Numbers of the files that are being included, each by the one before it
-      integer, intent(in) :: chain(:)
-      !> A file that the last of them includes
+   subroutine say_circle(files, file, path, words)
+      !> Files so far
+      type(source_file_t), intent(in) :: files(:)
+      !> Position of the one that includes
+      integer, intent(in) :: file
+      !> What it includes
       character(len=*), intent(in) :: path
-      !> The words; empty where it is none of them
+      !> The words; empty where the file does not include it
       character(len=:), allocatable, intent(out) :: words
 
-      integer :: i, first
+      character(len=:), allocatable :: rest
+      integer :: i
 
-      first = 0
       words = ""
-      do i = 1, size(chain)
-         if (first > 0) then
-            words = words//" includes '"//origins%files(chain(i))%text//"', which"
-         else if (is_same_file(facts_of_path(path), facts_of_path(origins%files(chain(i))%text))) then
-            first = i
-            words = "'"//origins%files(chain(i))%text//"'"
+      rest = " includes '"//path//"'"
+      i = file
+      do while (i > 1)
+         if (is_same_file(facts_of_path(path), facts_of_path(files(i)%path))) then
+            if (i == file) rest = " includes itself"
+            words = "'"//files(i)%path//"'"//rest
+            return
          end if
+         rest = " includes '"//files(i)%path//"', which"//rest
+         i = files(i)%parent
       end do
-      if (first > 0 .and. first == size(chain)) then
-         words = words//" includes itself"
-      else if (first > 0) then
-         words = words//" includes '"//path//"'"
-      end if
    end subroutine say_circle
 
    !> Find a line that includes a file, and whether a group is open behind a line.
-   pure subroutine find_include(line, is_open, path, column, width)
+   pure subroutine find_include(line, is_open, request)
       !> The line
       character(len=*), intent(in) :: line
       !> Is a group open?
       logical, intent(inout) :: is_open
-      !> Path as it is given; blank where it is not given as it should be
-      character(len=:), allocatable, intent(out) :: path
-      !> Place of the word and the columns to the end of the line; none where nothing is included
-      integer, intent(out) :: column, width
+      !> What the line includes, if it does
+      type(request_t), intent(out) :: request
 
-      integer :: i, next, closing
-      character(len=1) :: quote
+      integer :: first
+      character(len=:), allocatable :: path
+      logical :: is_right
 
-      path = ""
-      width = 0
-      column = max(1, verify(line, blanks))
-      if (.not. is_open .and. len(line) >= column + len(word) - 1) then
-         next = column + len(word) - 1 + verify(line(column + len(word):)//"=", blanks)
-         if (to_lower(line(column:column + len(word) - 1)) == word .and. next <= len(line)) then
-            if (line(next:next) == "=") then
-               width = len_trim(line) - column + 1
-               next = next + verify(line(next + 1:)//"x", blanks)
-               if (next >= len(line)) return
-               if (scan(line(next:next), "'""") == 0) return
-               closing = index(line(next + 1:), line(next:next))
-               ! Behind the file nothing but a comment
-               if (scan(line(next + closing + 1:)//"!", "!") /= verify(line(next + closing + 1:)//"!", blanks)) closing = 0
-               if (closing > 1) path = line(next + 1:next + closing - 1)
-               return
-            end if
+      request%path = ""
+      request%without = " "
+      request%column = max(1, verify(line, blanks))
+      first = request%column
+      if (.not. is_open) then
+         call take_word(line, word, first, is_right)
+         if (is_right) then
+            request%width = len_trim(line) - request%column + 1
+            call take_quoted(line, first, path)
+            if (path /= "") call take_without(line, first, request%without, is_right)
+            if (path /= "" .and. is_right) request%path = path
+            return
          end if
       end if
+      call follow_groups(line, is_open)
+   end subroutine find_include
+
+   !> Take a word and the `=` behind it.
+   pure subroutine take_word(line, wanted, first, is_there)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> The word, in lower case
+      character(len=*), intent(in) :: wanted
+      !> Where to begin; behind the `=` if the word is there
+      integer, intent(inout) :: first
+      !> Is it?
+      logical, intent(out) :: is_there
+
+      integer :: next
+
+      is_there = .false.
+      if (len(line) < first + len(wanted)) return
+      if (to_lower(line(first:first + len(wanted) - 1)) /= wanted) return
+      next = first + len(wanted) - 1 + verify(line(first + len(wanted):)//"=", blanks)
+      if (next > len(line)) return
+      is_there = line(next:next) == "="
+      if (is_there) first = next + 1
+   end subroutine take_word
+
+   !> Take a text in quotes, blanks around it and a comma behind it.
+   pure subroutine take_quoted(line, first, text)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Where to begin; then where the next word begins
+      integer, intent(inout) :: first
+      !> The text; empty where there is none
+      character(len=:), allocatable, intent(out) :: text
+
+      integer :: opening, closing
+
+      text = ""
+      opening = first - 1 + verify(line(first:)//"x", blanks)
+      if (opening >= len(line)) return
+      if (scan(line(opening:opening), "'""") == 0) return
+      closing = opening + index(line(opening + 1:), line(opening:opening))
+      if (closing == opening) return
+      text = line(opening + 1:closing - 1)
+      first = closing + verify(line(closing + 1:)//"x", blanks)
+      if (first > len(line)) return
+      if (line(first:first) == ",") first = first + verify(line(first + 1:)//"x", blanks)
+   end subroutine take_quoted
+
+   !> Take the groups that are left out, up to the end of the line or a comment.
+   pure subroutine take_without(line, first, without, is_right)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Where to begin
+      integer, intent(inout) :: first
+      !> The groups in lower case, with a blank before and after each
+      character(len=:), allocatable, intent(inout) :: without
+      !> Is it as it should be?
+      logical, intent(out) :: is_right
+
+      character(len=:), allocatable :: name
+
+      is_right = ends(first)
+      if (is_right) return
+      call take_word(line, word_without, first, is_right)
+      do while (is_right)
+         call take_quoted(line, first, name)
+         is_right = name /= "" .and. scan(name, blanks) == 0
+         if (is_right) without = without//to_lower(name)//" "
+         if (ends(first)) return
+      end do
+
+   contains
+
+      !> Is there nothing more in the line than a comment?
+      pure function ends(place) result(verdict)
+         !> Where to look
+         integer, intent(in) :: place
+         !> Is there?
+         logical :: verdict
+
+         verdict = place > len(line)
+         if (.not. verdict) verdict = line(place:place) == "!"
+      end function ends
+
+   end subroutine take_without
+
+   !> Follow groups over a line.
+   pure subroutine follow_groups(line, is_open)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Is a group open? Then: behind the line
+      logical, intent(inout) :: is_open
+
+      integer :: i
+      character(len=1) :: quote
+
       quote = " "
       do i = 1, len(line)
          if (quote /= " ") then
@@ -221,97 +293,6 @@ contains
             end select
          end if
       end do
-   end subroutine find_include
-
-   !> Add a span; one without lines gives way to the next.
-   subroutine add_span(origins, first, file, line)
-      !> Spans so far
-      type(origins_t), intent(inout) :: origins
-      !> Line of the whole text, file, line of the file
-      integer, intent(in) :: first, file, line
-
-      integer :: last
-
-      last = size(origins%spans)
-      if (last > 0) then
-         if (origins%spans(last)%first == first) last = last - 1
-      end if
-      origins%spans = [origins%spans(:last), span_t(first, file, line)]
-   end subroutine add_span
-
-   !> Add the name of a file. A constructor within a list would leak its text with gfortran.
-   subroutine add_name(origins, path)
-      !> Files so far
-      type(origins_t), intent(inout) :: origins
-      !> One more
-      character(len=*), intent(in) :: path
-
-      type(line_t), allocatable :: longer(:)
-
-      allocate (longer(size(origins%files) + 1))
-      longer(:size(origins%files)) = origins%files
-      longer(size(longer))%text = path
-      call move_alloc(longer, origins%files)
-   end subroutine add_name
-
-   !> Give mistakes of the whole text their places in the files that its lines are from.
-   subroutine place_mistakes(origins, lines, mistakes)
-      !> Where lines are from
-      type(origins_t), intent(in) :: origins
-      !> Lines of the whole text
-      type(text_lines_t), intent(in) :: lines
-      !> The mistakes
-      type(mistakes_t), intent(inout) :: mistakes
-
-      integer :: i, span
-
-      if (size(origins%spans) == 0) return
-      do i = 1, mistakes%kept
-         associate (mistake => mistakes%list(i))
-            if (mistake%file /= "" .or. mistake%line == 0 .or. mistake%line > lines%count) cycle
-            span = span_of(origins, mistake%line)
-            mistake%source = line_at(lines, mistake%line)
-            ! Lines that include are comments in the whole text
-            if (index(mistake%source, "! ") == 1 .and. index(to_lower(mistake%source), word) > 0) then
-               mistake%source = mistake%source(3:)
-            end if
-            mistake%line = mistake%line - origins%spans(span)%first + origins%spans(span)%line
-            if (origins%spans(span)%file > 0) mistake%file = origins%files(origins%spans(span)%file)%text
-         end associate
-      end do
-   end subroutine place_mistakes
-
-   !> Span of a line of the whole text.
-   pure function span_of(origins, line) result(span)
-      !> Where lines are from
-      type(origins_t), intent(in) :: origins
-      !> The line
-      integer, intent(in) :: line
-      !> The span
-      integer :: span
-
-      span = max(1, count(origins%spans%first <= line))
-   end function span_of
-
-   !> Place of a line of the whole text.
-   pure subroutine say_origin(origins, name, line, words)
-      !> Where lines are from
-      type(origins_t), intent(in) :: origins
-      !> Name of the deck
-      character(len=*), intent(in) :: name
-      !> The line
-      integer, intent(in) :: line
-      !> As `file:line`
-      character(len=:), allocatable, intent(out) :: words
-
-      integer :: span
-
-      words = name//":"//integer_text(line)
-      if (size(origins%spans) == 0) return
-      span = span_of(origins, line)
-      words = name
-      if (origins%spans(span)%file > 0) words = origins%files(origins%spans(span)%file)%text
-      words = words//":"//integer_text(line - origins%spans(span)%first + origins%spans(span)%line)
-   end subroutine say_origin
+   end subroutine follow_groups
 
 end module camroller_deck_include

@@ -19,6 +19,8 @@ module camroller_deck_text
       character(len=:), allocatable :: name
       !> Place of the `&`
       integer :: line = 0, column = 0
+      !> Place of the `/`; 0 where there is none
+      integer :: last_line = 0, last_column = 0
    end type group_place_t
 
    !> One `key = value`
@@ -122,13 +124,11 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       integer :: position, last
-      logical :: is_done
 
       position = 1
       call end_word(reader)
       do while (position <= len(line) .and. size(deck%groups) <= most_groups)
          last = position
-         is_done = .false.
          if (line(position:position) == "!") return
          if (index(blanks, line(position:position)) > 0) then
             call end_word(reader)
@@ -138,6 +138,8 @@ contains
             call complain_outside(line, position, reader, mistakes)
             return
          else if (line(position:position) == "/") then
+            if (reader%group > 0) deck%groups(reader%group)%last_line = reader%line
+            if (reader%group > 0) deck%groups(reader%group)%last_column = position
             call close_group(reader, deck)
          else if (index("'""", line(position:position)) > 0) then
             call read_quoted(line, position, last, reader, deck, mistakes)

@@ -164,7 +164,9 @@ def prepare(folder: pathlib.Path, seed: int, number: int) -> None:
     """The files of a case."""
     deck, source, table = mutated(seed, number)
     shutil.copytree(source / "tables", folder / "tables", ignore=shutil.ignore_patterns("*.py"))
-    (folder / "deck.nml").write_bytes(deck)
+    shutil.copytree(ROOT / "decks", folder / "decks", ignore=shutil.ignore_patterns("hard", "tables"))
+    # decks include others, from the folder of decks or from the one below it
+    (folder / "deck.nml").write_bytes(re.sub(rb"(?<=include = ')(?:\.\./)?(?=\w)", b"decks/", deck))
     (folder / "table.txt").write_bytes(table)
     if number % 5 == 0:  # a table of the deck is odd, not the deck alone
         for path in (folder / "tables").glob("*.txt"):

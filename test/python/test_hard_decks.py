@@ -1,6 +1,7 @@
 """The hard decks: each says why it is hard, and its tables are those of their script."""
 
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -25,6 +26,16 @@ def test_there_are_hard_decks():
 def test_each_deck_says_why_it_is_hard(path):
     assert path.read_text().startswith("! Hard because ")
     assert f90nml.read(path)["case"]["title"]
+
+
+@pytest.mark.parametrize("path", DECKS + DYNAMIC, ids=lambda path: path.name)
+def test_each_deck_gives_what_differs_from_its_base(path):
+    """A group that it takes from its base has no key with the base's value."""
+    base, without = re.search(r"^include = '([./a-z_]+\.nml)', without = (.*)$", path.read_text(), flags=re.MULTILINE).groups()
+    deck, common = f90nml.read(path), f90nml.read(path.parent / base)
+    assert "'sweep'" in without
+    assert [(group, key) for group in deck if f"'{group}'" not in without for key, value in deck[group].items()
+            if common.get(group, {}).get(key) == value] == []
 
 
 def test_the_tables_are_those_of_their_script(tmp_path):

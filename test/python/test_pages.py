@@ -59,7 +59,7 @@ def a_tree():
 
 def is_there(name, tree):
     """Is it a path, or the end of one, as `deck/deck.f90` is of `src/deck/deck.f90`?"""
-    return any(path.endswith("/" + name.rstrip("/").removeprefix("./")) for path in tree)
+    return any(path.endswith("/" + name.rstrip("/").removeprefix("../").removeprefix("./")) for path in tree)
 
 
 def test_what_a_page_names_is_found():

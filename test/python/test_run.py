@@ -367,7 +367,7 @@ def test_profiles_of_a_run_have_no_torques_and_say_what_is_not_in_them(camroller
 
 
 def test_a_film_beyond_its_table_is_not_one_outside_a_published_range(camroller, tmp_path):
-    (tmp_path / "deck.nml").write_text((ROOT / "decks/hard/light_base_circle_load.nml").read_text() + "\n&ehl\n/\n")
+    (tmp_path / "deck.nml").write_text(f"include = '{ROOT}/decks/hard/light_base_circle_load.nml'\n&ehl\n/\n")
     result = run(camroller, "run", "deck.nml", "-o", "run.h5", "--set", "film.range_policy=stop", folder=tmp_path)
     assert result.returncode == 4 and "the film is beyond the table of solved contacts for 6" in result.stderr
 

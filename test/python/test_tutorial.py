@@ -10,7 +10,7 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "doc/tutorial.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"^```(sh|text)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+BLOCKS = re.findall(r"^```(sh|text|fortran)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 
 
 def commands_of(block):
@@ -33,6 +33,8 @@ def test_every_command_works_and_prints_what_the_page_shows(camroller, tmp_path)
                                         stdin=subprocess.DEVNULL, env={**os.environ, "MPLBACKEND": "Agg"})
                 assert result.returncode == 0, (command, result.stderr)
                 printed += result.stdout + result.stderr
+        elif kind == "fortran":
+            (tmp_path / block.splitlines()[0].removeprefix("! ")).write_text(block)
         else:
             for line in block.splitlines():
                 shown += 1
