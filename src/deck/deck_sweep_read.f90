@@ -450,6 +450,7 @@ contains
             call complain(mistakes, settings, "sweep", "table", "'"//axis%key//"' is in the table twice")
             cycle
          end if
+         if (columns(i)%unit == "-") columns(i)%unit = "1"
          if (columns(i)%unit /= "" .and. columns(i)%unit /= axis%unit) then
             call add_mistake(mistakes, "'"//axis%key//"' is in '"//columns(i)%unit//"'; the key takes '"//trim(axis%unit)//"'", &
                & 0, 0, 0, path)

@@ -364,7 +364,7 @@ contains
 
       ! Part of the range of the pressure by which the curve may leave the four rows about a step: the peak of a smooth pressure
       ! between two rows does by less, a curve beside a jump by several times as much [-]
-      real(wp), parameter :: small = 0.03_wp
+      real(wp), parameter :: small = 0.015_wp
       ! Places within a step at which it is looked for
       integer, parameter :: places = 8
       type(spline_t) :: curve

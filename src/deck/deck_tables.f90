@@ -138,7 +138,7 @@ contains
       end if
       if (allocated(error)) then
          if (index(get_word(settings, group, "table"), "/") /= 1) error%message = error%message// &
-            & "; the path of a table starts at the deck's folder"
+            & "; the path of a table starts at the folder of the deck, also where an included file gives it"
          call complain(mistakes, settings, group, "table", error%message)
       else if (mistakes%count == before .and. size(table%x) < fewest_rows) then
          call add_mistake(mistakes, "the table has "//integer_text(size(table%x))//" of at least "// &

@@ -65,11 +65,11 @@ module camroller_key_uses
       key_use_t("lubricant.density_kg_m3", "temperature_law", density_laws), &
       key_use_t("lubricant.density_kg_m3", "&needle_drag"), &
       key_use_t("lubricant.density_kg_m3", "needle_bearing.kind", "needles_skf"), &
-      key_use_t("lubricant.density_kg_m3", "&bearing_heat"), &
+      key_use_t("lubricant.density_kg_m3", "bearing_heat.oil_share", above_zero, "bearing_heat"), &
       key_use_t("lubricant.thermal_expansion_per_K", "temperature_law", density_laws), &
       key_use_t("lubricant.thermal_expansion_per_K", "&needle_drag"), &
       key_use_t("lubricant.thermal_expansion_per_K", "needle_bearing.kind", "needles_skf"), &
-      key_use_t("lubricant.thermal_expansion_per_K", "&bearing_heat"), &
+      key_use_t("lubricant.thermal_expansion_per_K", "bearing_heat.oil_share", above_zero, "bearing_heat"), &
       key_use_t("lubricant.density_kg_m3", "ehl.profiles", yes, "heat"), &
       key_use_t("lubricant.thermal_expansion_per_K", "ehl.profiles", yes, "heat"), &
       key_use_t("lubricant.roelands_index", "pressure_viscosity_coefficient_per_GPa", not_given), &

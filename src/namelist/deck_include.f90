@@ -107,7 +107,7 @@ contains
          if (len(request%path) == 0) then
             reason = "expected include = 'file', one file in a line, or include = 'file', without = 'group', ..."
          else
-            call say_circle(files, file, next%path, reason)
+            call say_repeated(files, file, next%path, reason)
          end if
          if (reason == "" .and. (depth == deepest .or. size(files) > most_files)) then
             reason = "more than "//integer_text(merge(deepest, most_files, depth == deepest))//" included files"
@@ -125,15 +125,15 @@ contains
       end do
    end subroutine add_file
 
-   !> Say that a file would include itself, directly or by others.
-   subroutine say_circle(files, file, path, words)
+   !> Say that a file would include itself, directly or by others, or that it is included already.
+   subroutine say_repeated(files, file, path, words)
       !> Files so far
       type(source_file_t), intent(in) :: files(:)
       !> Position of the one that includes
       integer, intent(in) :: file
       !> What it includes
       character(len=*), intent(in) :: path
-      !> The words; empty where the file does not include it
+      !> The words; empty where it is none of them
       character(len=:), allocatable, intent(out) :: words
 
       character(len=:), allocatable :: rest
@@ -151,7 +151,14 @@ contains
          rest = " includes '"//files(i)%path//"', which"//rest
          i = files(i)%parent
       end do
-   end subroutine say_circle
+      do i = 2, size(files)
+         if (.not. is_same_file(facts_of_path(path), facts_of_path(files(i)%path))) cycle
+         words = "'"//path//"' is included already"
+         if (files(i)%parent > 1) words = words//" by '"//files(files(i)%parent)%path//"'"
+         words = words//"; a deck takes a file in once"
+         return
+      end do
+   end subroutine say_repeated
 
    !> Find a line that includes a file, and whether a group is open behind a line.
    pure subroutine find_include(line, is_open, request)

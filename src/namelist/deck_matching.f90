@@ -228,6 +228,10 @@ contains
          words = words//"; it belongs to &"//trim(schema%groups(i)%name)
          return
       end do
+      if (to_lower(name) == "include") then
+         words = words//"; a line include = 'file' stands outside of groups"
+         return
+      end if
       call advise_key(schema, group, name, advice)
       words = words//advice
    end subroutine explain_key

@@ -163,8 +163,8 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      call add_mistake(mistakes, "text outside of a group; a group begins with '&name', a comment with '!'", &
-         & reader%line, position, len_trim(line) - position + 1)
+      call add_mistake(mistakes, "text outside of a group; a group begins with '&name', a comment with '!', and "// &
+         & "include = 'file' stands on a line of its own", reader%line, position, len_trim(line) - position + 1)
    end subroutine complain_outside
 
    !> A group that another group or the end of the deck cuts off.

@@ -82,7 +82,8 @@ contains
 
    !> Find the ends of an event at which the lift begins or ends with a slope, as a valve's lift does whose lash was taken off. The
    !> curve through the rows starts at rest and gets that slope within a row or two: its acceleration there grows as the rows get
-   !> closer, and is no cam's. An end is taken for such a one where its acceleration is the largest: ramps bend less than flanks.
+   !> closer, and is no cam's. An end is taken for such a one where its acceleration is the largest, as ramps bend less than flanks,
+   !> and where the slope that two rows bring changes by far less from row to row behind them.
    subroutine find_sharp_ends(lift, is_sharp, acceleration, slope)
       !> Lift of the valve, by a table
       type(lift_t), intent(in) :: lift
@@ -95,14 +96,17 @@ contains
 
       ! Event above which the lift may fill the turn, and has no ends [deg]
       real(wp), parameter :: longest = 350.0_wp
+      ! Slope over its change from row to row, from which on it is no flank that a few rows show [-]
+      real(wp), parameter :: over_change = 2.5_wp
       ! Rows next to an end whose steps count as its own; rows as far as which such an end reaches; places looked at in a step
       integer, parameter :: own = 2, reach = 5, places = 8
       type(lift_law_t) :: law
       type(error_t), allocatable :: error
       ! Lift and its derivatives [m, m/rad, ...]
       real(wp) :: values(0:3)
-      ! Cam angles of the rows [rad]
+      ! Cam angles of the rows [rad], slopes of the first four steps from an end [m/rad]
       real(wp), allocatable :: angle(:)
+      real(wp) :: slopes(4)
       integer :: i, k, low, high
 
       is_sharp = .false.
@@ -124,7 +128,13 @@ contains
       associate (row => [low + own, high - own])
          slope = (lift%table_lift(row + 1) - lift%table_lift(row - 1))/(angle(row + 1) - angle(row - 1))
       end associate
-      is_sharp = acceleration(:2) > acceleration(3)
+      associate (lifts => lift%table_lift)
+         slopes = (lifts(low + 1:low + 4) - lifts(low:low + 3))/(angle(low + 1:low + 4) - angle(low:low + 3))
+         is_sharp(1) = abs(slopes(2)) > over_change*maxval(abs(slopes(3:4) - slopes(2:3)))
+         slopes = (lifts(high - 3:high) - lifts(high - 4:high - 1))/(angle(high - 3:high) - angle(high - 4:high - 1))
+         is_sharp(2) = abs(slopes(3)) > over_change*maxval(abs(slopes(1:2) - slopes(2:3)))
+      end associate
+      is_sharp = is_sharp .and. acceleration(:2) > acceleration(3)
    end subroutine find_sharp_ends
 
    !> What a bend at two neighbouring rows leaves of fourth differences.

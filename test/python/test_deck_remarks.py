@@ -306,6 +306,20 @@ def test_a_lift_whose_lash_was_taken_off_gives_a_remark(camroller, tmp_path, ste
     assert float(words[3]) > math.degrees(math.degrees(speed)) / step
 
 
+@pytest.mark.parametrize("step", [1, 2, 4, 5])
+def test_a_short_flank_that_few_rows_show_is_no_slope_at_the_end(camroller, tmp_path, step):
+    """A lift that starts at rest, with pulses of the acceleration twenty degrees long at both ends."""
+    way = np.linspace(0, 75, 7501)  # deg
+    pulse = np.where(way < 20, np.sin(np.pi * way / 20), -0.25 * np.sin(np.pi * np.clip(way - 20, 0, 55) / 110))
+    slope = np.cumsum(pulse)
+    lift = np.cumsum(slope - slope[-1] * way / way[-1] * (way > 20) * (way - 20) / 55)
+    angles = np.arange(0, 360, step)
+    lifts = 9.5 * np.interp(75 - abs(angles - 180), way, lift / lift.max())
+    (tmp_path / "lift.txt").write_text("".join(f"{angle} {value:.9f}\n" for angle, value in zip(angles, lifts)))
+    remarks = remarks_of(camroller, "decks/thesis.nml", "lift.law=table", f"lift.table={tmp_path / 'lift.txt'}")
+    assert not [line for line in remarks if "with a slope" in line]
+
+
 def shifted_table(path, row, shift, kink=0.0):
     """The lift table of the decks, a row of it off by some millimetres, and slower by some of them in each row from there on."""
     rows = [line.split() for line in (ROOT / "decks/tables/polynomial_lift.txt").read_text().splitlines() if line.strip()[:1].isdigit()]

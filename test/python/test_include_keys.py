@@ -113,6 +113,28 @@ def test_files_beside_each_other_may_not_give_the_same_key(camroller, tmp_path):
         assert found["film.law"] == law and found["film.range_policy"] == "'stop'"
 
 
+def test_a_file_that_is_included_twice_is_one_mistake(camroller, tmp_path):
+    (tmp_path / "base.nml").write_text(THESIS)
+    for name in ("one", "two"):
+        (tmp_path / f"{name}.nml").write_text("include = 'base.nml'\n")
+    for text, words in (("include = 'one.nml'\ninclude = 'two.nml'\n", "base.nml' is included already by '"),
+                        ("include = 'base.nml'\ninclude = 'base.nml'\n", "base.nml' is included already; a deck takes a file in once")):
+        (tmp_path / "deck.nml").write_text(text)
+        result = run(camroller, "check", "deck.nml", folder=tmp_path)
+        assert result.returncode == 3 and words in result.stderr and result.stderr.count("base.nml'") < 3, result.stderr
+
+
+@pytest.mark.parametrize(("text", "words"), [
+    ("&roller wall_thickness_mm = 3 / include = 'base.nml'", "include = 'file' stands on a line of its own"),
+    ("include 'base.nml'", "include = 'file' stands on a line of its own"),
+    ("without = 'sweep'", "include = 'file' stands on a line of its own"),
+    ("&roller\n include = 'base.nml'\n/", "unknown key 'include' in &roller; a line include = 'file' stands outside of groups")])
+def test_a_line_with_include_in_the_wrong_place_is_told_as_such(camroller, tmp_path, text, words):
+    (tmp_path / "deck.nml").write_text(text + "\n")
+    result = run(camroller, "check", "deck.nml", folder=tmp_path)
+    assert result.returncode == 3 and words in result.stderr, result.stderr
+
+
 def test_what_is_twice_in_one_file_is_a_mistake(camroller, tmp_path):
     deck = write(tmp_path, deck="include = 'base.nml'\n&film\n   law = 'moes'\n   law = 'moes'\n/\n", base=THESIS)
     assert "deck.nml:4:4: key 'law' is there twice in &film" in mistakes(camroller, deck)
