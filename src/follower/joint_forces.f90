@@ -118,8 +118,9 @@ contains
 
       slope = moment_slope
       if (.not. model%is_consistent) return
-      if (allocated(model%guide_drag)) slope = slope + model%guide_drag*(model%speed*(position%lift_curvature*position%valve_arm &
-         & + position%lift_slope*position%valve_arm_slope) + gain*position%lift_slope*position%valve_arm)
+      if (allocated(model%guide_drag)) slope = slope + model%guide_drag*model%speed &
+         & *(position%lift_curvature*position%valve_arm + position%lift_slope*position%valve_arm_slope) &
+         & + gain*model%guide_drag*position%lift_slope*position%valve_arm
       if (.not. allocated(model%joints)) return
       call set_stem(model, position, moments, axial_slope(model, position, moments, moment_slope, gain), stem, gain)
       friction = stem_moment(position, stem)
@@ -357,31 +358,14 @@ contains
       !> Derivative [N/rad]
       real(wp) :: slope
 
-      ! Angular acceleration of the finger [rad/s^2]
-      type(dual_t) :: acceleration
+      ! Change of the finger's angular acceleration [1/s^2]
+      real(wp) :: acceleration
 
-      acceleration = finger_acceleration(model, position, gain)
-      slope = (moment_slope - model%train%finger_inertia*acceleration%slope &
+      acceleration = model%speed*(model%speed*position%finger_jerk + model%speed_slope*position%finger_curvature) &
+         & + gain*(2.0_wp*model%speed*position%finger_curvature + model%speed_slope*position%finger_slope)
+      slope = (moment_slope - model%train%finger_inertia*acceleration &
          & - axial_force(position, moments)*position%valve_arm_slope)/position%valve_arm
    end function axial_slope
-
-   !> Angular acceleration of the finger.
-   pure function finger_acceleration(model, position, gain) result(acceleration)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Geometry at this angle
-      type(position_t), intent(in) :: position
-      !> Change of the cam's speed with the cam angle; absent: none [rad/s/rad]
-      real(wp), intent(in), optional :: gain
-      !> Acceleration [rad/s^2]
-      type(dual_t) :: acceleration
-
-      type(dual_t) :: speed ! of the cam [rad/s]
-
-      speed = cam_speed(model, gain)
-      acceleration = speed*(speed*dual_t(position%finger_curvature, position%finger_jerk) &
-         & + model%speed_slope*dual_t(position%finger_slope, position%finger_curvature))
-   end function finger_acceleration
 
    !> Moment of friction at tip and stem, positive where it presses the roller on the cam.
    pure function stem_moment(position, stem) result(moment)
@@ -409,8 +393,8 @@ contains
       !> Change of the cam's speed with the cam angle; absent: none [rad/s/rad]
       real(wp), intent(in), optional :: gain
 
-      ! Directions along and across the roller arm [-]; angular acceleration of the finger [rad/s^2]
-      type(dual_t) :: along(2), across(2), acceleration
+      ! Directions along and across the roller arm [-]; speed of the cam [rad/s]; angular acceleration of the finger [rad/s^2]
+      type(dual_t) :: along(2), across(2), speed, acceleration
       ! Sine and cosine of the roller arm's angle [-]; length of the arm [m]
       real(wp) :: sine, cosine, length
 
@@ -423,8 +407,10 @@ contains
          & - along*dual_t(position%tangent_arm/length, position%tangent_arm_slope/length)
       forces%tangent = model%linkage%sense*(across*dual_t(position%tangent_arm/length, position%tangent_arm_slope/length) &
          & + along*dual_t(position%normal_arm/length, position%normal_arm_slope/length))
-      forces%finger_speed = cam_speed(model, gain)*dual_t(position%finger_slope, position%finger_curvature)
-      acceleration = finger_acceleration(model, position, gain)
+      speed = cam_speed(model, gain)
+      forces%finger_speed = speed*dual_t(position%finger_slope, position%finger_curvature)
+      acceleration = speed*(speed*dual_t(position%finger_curvature, position%finger_jerk) &
+         & + model%speed_slope*dual_t(position%finger_slope, position%finger_curvature))
       associate (chi_cosine => model%linkage%axis_cosine, chi_sine => model%linkage%axis_sine)
          forces%rest = [chi_sine*stem%tip_friction - chi_cosine*stem%tip_force, &
             & chi_cosine*stem%tip_friction + chi_sine*stem%tip_force]

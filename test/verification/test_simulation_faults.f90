@@ -244,7 +244,7 @@ contains
          return
       end if
       call advance(simulation, 3.0_wp, inputs_t(70.0_wp, 330.0_wp), inputs_t(80.0_wp, 50.0_wp), failed, failure)
-      call expect_error(error, failure, kind_domain, "Vogel")
+      call expect_error(error, failure, kind_usage, "kelvin")
       if (allocated(error)) return
       call save_simulation(simulation, again, failure)
       call simulation_values(simulation, the_case, outcome, after, failure)
