@@ -58,8 +58,8 @@ module camroller_running_in
    !> First step over all of the time, and a rest of it that is no step; largest factor from one step to the next, and what a step
    !> is shortened by against the one that would just do; part of the accuracy that is left which any step may have [-]
    real(wp), parameter :: first_part = 0.02_wp, no_part = 1.0e-10_wp, largest_growth = 4.0_wp, safety = 0.8_wp, least_part = 0.01_wp
-   !> Relaxation of a film in a turn from where on surfaces change within it [-]
-   real(wp), parameter :: fast_part = 0.1_wp
+   !> Relaxation of a film in a turn from where on surfaces change within it; accuracy left over time left that is none [-]
+   real(wp), parameter :: fast_part = 0.1_wp, hardly = 0.01_wp
    !> An hour [s]
    real(wp), parameter :: hour = 3600.0_wp
 
@@ -199,7 +199,7 @@ contains
       type(rates_t), intent(inout) :: rates
       !> The way
       type(aged_t), intent(inout) :: aged
-      !> Whether errors became as large as they may be, since less is worn than was foreseen
+      !> Whether errors became as large as they may be, or nearly so for the time that is left, since less is worn than was foreseen
       logical, intent(out) :: is_used_up
       !> Domain error where surfaces change within a turn, convergence error without a periodic cycle or with too short steps
       type(error_t), allocatable, intent(out) :: error
@@ -226,7 +226,7 @@ contains
          associate (left => plan%running%duration - time)
             foreseen = min(scales, expected_scales(plan, next, at_middle, left - step))
             aged%error = relative(mistakes, foreseen)
-            is_used_up = aged%error >= plan%running%accuracy
+            is_used_up = plan%running%accuracy - aged%error <= hardly*plan%running%accuracy*left/plan%running%duration
             if (is_used_up) then
                scales(2:) = 0.5_wp*foreseen(2:)
                return

@@ -227,16 +227,22 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
       type(aged_t) :: aged
+      ! The second one is used up within half a thousandth where less is worn than was foreseen [-]
+      real(wp), parameter :: accuracies(2) = [1.0e-2_wp, 1.0e-2_wp*(1.0_wp - 52*0.004_wp)]
+      integer :: i
 
-      case = running_case()
-      call set_point(case, 600.0_wp*pi/30.0_wp, 0.01_wp)
-      case%numerics%tolerance = 1.0e-4_wp
-      case%tribofilm%growth_rate = 20.0_wp*case%tribofilm%growth_rate
-      case%tribofilm%roughness_ratio = 0.0_wp
-      case%needle_bearing%friction_coefficient = 0.01_wp
-      case%asperity%boundary_coefficient = 0.02_wp
-      case%tribofilm%coefficient = 0.3_wp
-      call compare_with_finer(case, 1.0e-2_wp, aged, error)
+      do i = 1, 2
+         case = running_case()
+         call set_point(case, 600.0_wp*pi/30.0_wp, 0.01_wp)
+         case%numerics%tolerance = 1.0e-4_wp
+         case%tribofilm%growth_rate = 20.0_wp*case%tribofilm%growth_rate
+         case%tribofilm%roughness_ratio = 0.0_wp
+         case%needle_bearing%friction_coefficient = 0.01_wp
+         case%asperity%boundary_coefficient = 0.02_wp
+         case%tribofilm%coefficient = 0.3_wp
+         call compare_with_finer(case, accuracies(i), aged, error)
+         if (allocated(error)) return
+      end do
    end subroutine test_falling_wear
 
    !> Run in, and compare with a tenth of the error.
