@@ -97,7 +97,7 @@ contains
       ! Event above which the lift may fill the turn, and has no ends [deg]
       real(wp), parameter :: longest = 350.0_wp
       ! Slope over its change from row to row, from which on it is no flank that a few rows show [-]
-      real(wp), parameter :: over_change = 2.5_wp
+      real(wp), parameter :: over_change = 1.5_wp
       ! Rows next to an end whose steps count as its own; rows as far as which such an end reaches; places looked at in a step
       integer, parameter :: own = 2, reach = 5, places = 8
       type(lift_law_t) :: law

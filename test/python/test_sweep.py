@@ -499,6 +499,11 @@ def test_units_of_a_table_in_hdf5_are_those_of_its_keys_or_told(camroller, tmp_p
                           ("the longest has 32", "rpm", 33 * "m")):
         refused = sweep(*given)
         assert refused.returncode == 3 and words in refused.stderr, refused.stderr
+    # a key without a unit, by the sign of the tables of doc/deck.md
+    with h5py.File(tmp_path / "cases.h5", "w") as file:
+        file["needle_bearing.friction_coefficient"] = [0.002, 0.003]
+        file["needle_bearing.friction_coefficient"].attrs["units"] = "-"
+    assert run(camroller, "sweep", "deck.nml", "-o", "plain.h5", folder=tmp_path).returncode == 0
 
 
 @pytest.mark.parametrize("name, values, words", [
