@@ -228,12 +228,15 @@ contains
       !> The number read back [any unit]
       real(wp) :: again
       character(len=number_length) :: buffer
-      integer :: n
+      integer :: first, n
 
       if (.not. ieee_is_finite(value)) then
          call write_number(value, "es", 1, text)
       else
-         do n = fewest, most
+         ! Rounded to 15 digits, a number that has no more is itself with zeros behind it; below `tiny` bits are too few for that
+         first = fewest
+         if (abs(value) >= tiny(value)) first = max(fewest, min(most, precision(value)))
+         do n = first, most
             call write_number(value, "es", n - 1, buffer)
             if (n == most) exit
             if (is_beyond_range(trim(adjustl(buffer)))) cycle

@@ -20,6 +20,7 @@ contains
 
       testsuite = [ &
          new_unittest("a number is written with as few digits as give it back", short_numbers), &
+         new_unittest("a number of so many digits is written with them", digits_kept), &
          new_unittest("any number comes back as it was", numbers_come_back), &
          new_unittest("a number is rounded where that is asked for", rounded_numbers), &
          new_unittest("digits after the point follow at least one digit before it", fixed_numbers), &
@@ -45,8 +46,57 @@ contains
          call check(error, number_text(numbers(i)), trim(texts(i)))
          if (allocated(error)) return
       end do
+      ! Fewer bits than other numbers have
+      call check(error, number_text(nearest(0.0_wp, 1.0_wp)), "5e-324")
+      if (allocated(error)) return
       call check(error, integer_text(-42), "-42")
    end subroutine short_numbers
+
+   !> What is written with so many digits has no more when it is written again.
+   subroutine digits_kept(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: all_digits = "73910564281357964"
+      character(len=:), allocatable :: digits, text
+      !> The number [-]
+      real(wp) :: number
+      integer :: count, exponent
+
+      do count = 1, len(all_digits)
+         digits = all_digits(:count - 1)//"7"
+         do exponent = -300, 300, 13
+            text = digits(1:1)//"."//digits(2:)//"e"//integer_text(exponent)
+            read (text, *) number
+            text = number_text(number)
+            if (count <= precision(number)) then
+               call check(error, mantissa_digits(text) == count, &
+                  & digits//"e"//integer_text(exponent)//" is written as "//text)
+            else
+               call check(error, mantissa_digits(text) <= count, digits//"e"//integer_text(exponent)//" is written as "//text)
+            end if
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine digits_kept
+
+   !> Digits of a number other than zero, without zeros before and behind them.
+   pure function mantissa_digits(text) result(count)
+      !> The number
+      character(len=*), intent(in) :: text
+      !> How many
+      integer :: count
+
+      character(len=len(text)) :: digits
+      integer :: i, end_of_mantissa
+
+      end_of_mantissa = index(text, "e") - 1
+      if (end_of_mantissa < 0) end_of_mantissa = len(text)
+      digits = ""
+      do i = 1, end_of_mantissa
+         if (index("0123456789", text(i:i)) > 0) digits = trim(digits)//text(i:i)
+      end do
+      count = verify(digits, "0 ", back=.true.) - verify(digits, "0 ") + 1
+   end function mantissa_digits
 
    subroutine counted_nouns(error)
       type(error_type), allocatable, intent(out) :: error
