@@ -62,7 +62,6 @@ module camroller_journal_orbit
       class(bearing_load_t), pointer :: load => null()
    contains
       procedure :: get_rate => orbit_rate
-      procedure :: get_decay_rate => orbit_decay
       procedure :: name_time => name_orbit_angle
    end type orbit_problem_t
 
@@ -256,28 +255,6 @@ contains
       end if
       call journal_velocity(self%journal, state, load, self%rotation, rate, self%touch)
    end subroutine orbit_rate
-
-   !> Fastest decay of a disturbance, at most: by sums over the rows of the Jacobian.
-   subroutine orbit_decay(self, time, state, decay_rate)
-      !> The journal
-      class(orbit_problem_t), intent(in) :: self
-      !> Angle of the shaft [rad]
-      real(wp), intent(in) :: time
-      !> Place [clearance]
-      real(wp), intent(in) :: state(:)
-      !> Decay rate [1/rad]
-      real(wp), intent(out) :: decay_rate
-
-      type(counters_t) :: counters
-      ! Velocity [clearance/rad], its derivatives [1/rad, clearance/rad^2]
-      real(wp) :: rate(size(state)), jacobian(size(state), size(state)), slope(size(state))
-      integer :: status
-
-      decay_rate = 0.0_wp
-      call self%get_rate(time, state, rate, status)
-      if (status == 0) call self%get_jacobian(time, state, rate, time, jacobian, slope, counters, status)
-      if (status == 0) decay_rate = maxval(sum(abs(jacobian), 2))
-   end subroutine orbit_decay
 
    !> Angle of the shaft in words.
    function name_orbit_angle(self, time) result(text)

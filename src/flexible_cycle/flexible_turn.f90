@@ -113,6 +113,7 @@ contains
       end if
       if (.not. allocated(turn%scales)) allocate (turn%scales(turn%components))
       call set_scales(model, turn%scales)
+      turn%problem%small_state = turn%scales
       turn%options%tolerance = tolerance*turn%scales
       turn%least_sliding = min(least_steps*shortest_step*spacing(pi)*sliding_rate(model), &
          & no_slip*model%speed*model%roller_radius)

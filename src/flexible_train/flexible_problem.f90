@@ -31,7 +31,6 @@ module camroller_flexible_problem
       type(resolution_t) :: resolution
    contains
       procedure :: get_rate
-      procedure :: get_decay_rate
       procedure :: linearise
       procedure :: factorise
       procedure :: solve
@@ -92,33 +91,6 @@ contains
          rate = 0.0_wp
       end if
    end subroutine get_rate
-
-   !> Fastest rate of the problem: a bound for the largest eigenvalue, by the row sums of its Jacobian in the units of the scales.
-   subroutine get_decay_rate(self, time, state, decay_rate)
-      !> The problem
-      class(flexible_problem_t), intent(in) :: self
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: time
-      !> State [state]
-      real(wp), intent(in) :: state(:)
-      !> The bound [1/rad]
-      real(wp), intent(out) :: decay_rate
-
-      type(flexible_state_t) :: now
-      ! Derivatives over state and angle [1/rad], [state/rad^2]; sizes of the components [state]
-      real(wp) :: jacobian(size(state), size(state)), slope(size(state)), scales(size(state))
-      integer :: i, status
-
-      decay_rate = 0.0_wp
-      call follow_ramp(self%model, time)
-      call evaluate_train(self%model, time, state, self%resolution, now, status)
-      if (status /= 0) return
-      call slopes_of(self%model, time, state, now, jacobian, slope)
-      scales = state_scales(self%model)
-      do i = 1, size(state)
-         decay_rate = max(decay_rate, sum(abs(jacobian(i, :))*scales)/scales(i))
-      end do
-   end subroutine get_decay_rate
 
    !> Rate and Jacobian from one evaluation.
    subroutine linearise(self, time, state, horizon, linear, counters, status)

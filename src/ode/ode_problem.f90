@@ -21,7 +21,7 @@ module camroller_ode_problem
    !> Right-hand side of `d state/d time = rate(time, state)`
    type, abstract :: problem_t
       !> Size of each component below which differences between states stop to matter, for difference quotients; 1 where not
-      !> allocated [state]
+      !> allocated; the decay rate is found in units of them [state]
       real(wp), allocatable :: small_state(:)
       !> Components at the end of the state that are integrals: no rate depends on them
       integer :: integrals = 0
@@ -29,8 +29,8 @@ module camroller_ode_problem
       real(wp) :: barrier = huge(1.0_wp), barrier_slope = 0.0_wp
    contains
       procedure(rate_interface), deferred :: get_rate
-      procedure(decay_interface), deferred :: get_decay_rate
       procedure(words_interface), deferred :: name_time
+      procedure :: get_decay_rate => bound_decay_rate
       procedure :: get_jacobian => difference_jacobian
       procedure :: linearise => linearise_in_two
       procedure :: get_clearance => clearance_of_line
@@ -99,19 +99,6 @@ module camroller_ode_problem
          !> 0 fine, positive: try a smaller step, negative: give up
          integer, intent(out) :: status
       end subroutine rate_interface
-
-      !> Fastest decay rate of the problem at a state: size of the largest eigenvalue of the Jacobian
-      subroutine decay_interface(self, time, state, decay_rate)
-         import :: problem_t, wp
-         !> The problem; read only
-         class(problem_t), intent(in) :: self
-         !> Time [time]
-         real(wp), intent(in) :: time
-         !> State [state]
-         real(wp), intent(in) :: state(:)
-         !> Decay rate [1/time]
-         real(wp), intent(out) :: decay_rate
-      end subroutine decay_interface
 
       !> A time in the words of messages, e.g. `cam angle 214.5 deg`
       function words_interface(self, time) result(text)
@@ -198,6 +185,37 @@ contains
       if (status /= 0) return
       call self%get_jacobian(time, state, linear%rate, horizon, linear%jacobian, linear%time_slope, counters, status)
    end subroutine linearise_in_two
+
+   !> Fastest decay rate at a state: the size of the largest eigenvalue of the Jacobian, at most, by the sums over its rows
+   !> (Gershgorin) in units of `small_state`. Zero where the rate cannot be evaluated.
+   !>
+   !> A problem that knows better overrides this.
+   subroutine bound_decay_rate(self, time, state, decay_rate)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Decay rate [1/time]
+      real(wp), intent(out) :: decay_rate
+
+      type(linear_t) :: linear
+      type(counters_t) :: counters
+      ! Units of the components [state]
+      real(wp) :: units(size(state))
+      integer :: i, status
+
+      units = 1.0_wp
+      if (allocated(self%small_state)) units = self%small_state
+      decay_rate = 0.0_wp
+      call new_linear(linear, size(state))
+      call self%linearise(time, state, time, linear, counters, status)
+      if (status /= 0) return
+      do i = 1, size(state)
+         decay_rate = max(decay_rate, sum(abs(linear%jacobian(i, :))*units)/units(i))
+      end do
+   end subroutine bound_decay_rate
 
    !> Factors of the matrix `shift I - jacobian`; a single component needs none.
    subroutine factorise_dense(self, linear, shift, factors, status)

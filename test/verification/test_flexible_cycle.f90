@@ -257,6 +257,12 @@ contains
       if (allocated(error)) return
       call check_close(error, one(drive_torque), other(drive_torque), 1.0e-3_wp, "torque")
       if (allocated(error)) return
+      call measure(the_case, "dormand_prince", 1.0e-4_wp, other, cycle, error)
+      if (allocated(error)) return
+      call check_close(error, one(largest_load), other(largest_load), 1.0e-3_wp, "largest load, explicit method")
+      if (allocated(error)) return
+      call check_close(error, one(drive_torque), other(drive_torque), 1.0e-3_wp, "torque, explicit method")
+      if (allocated(error)) return
       call measure(reference(300.0_wp, .false.), "rodas5p", 1.0e-5_wp, one, cycle, error)
       if (allocated(error)) return
       call measure(reference(300.0_wp, .false.), "radau5", 1.0e-5_wp, other, cycle, error)
