@@ -373,7 +373,7 @@ contains
             call state_at(solved%cycles(lobe), solved%models(lobe), place, shaft%hints(cam), state, error, &
                & contact_near(solved%curves(lobe), place))
             if (allocated(error)) return
-            solved_values = cam_values(solved%models(lobe), state, allocated(shaft%bearings))
+            solved_values = cam_values(solved%models(lobe), state)
             if (.not. is_known(1)) values(:torque_count) = solved_values(:torque_count)
             if (.not. is_known(2)) values(torque_count + 1:) = solved_values(torque_count + 1:)
          end associate

@@ -79,7 +79,7 @@ contains
 
       place = curve%count + 1
       if (present(piece)) place = piece
-      curve%values(:, point, place) = cam_values(model, state, curve%has_force)
+      curve%values(:, point, place) = cam_values(model, state)
       curve%contacts(:, point, place) = 0.0_wp
       associate (contact => state%contact)
          if (contact%is_touching) curve%contacts(:, point, place) = [contact%tangential_force, contact%bearing_torque, &
@@ -122,7 +122,7 @@ contains
          allowed(of_residual) = huge(1.0_wp)
          do piece = 1, curve%count
             associate (within => highest_terms(values(:, :, piece)) <= allowed)
-               curve%is_smooth(:, piece) = [all(within(:torque_count)), all(within(torque_count + 1:))]
+               curve%is_smooth(:, piece) = [all(within(:torque_count)), all(within(torque_count + 1:)) .or. .not. curve%has_force]
             end associate
          end do
       end associate
@@ -187,70 +187,88 @@ contains
       angle = curve%ends(piece) + panel_places(point)*(curve%ends(piece + 1) - curve%ends(piece))
    end function piece_angle
 
-   !> Cam angles and torques of all points, in order.
-   pure subroutine curve_points(curve, angles, torques)
+   !> Cam angles, torques and force of all points, in order.
+   pure subroutine curve_points(curve, angles, values)
       !> The curve
       type(lobe_curve_t), intent(in) :: curve
       !> The angles from full lift [rad]
       real(wp), allocatable, intent(out) :: angles(:)
-      !> The torques [N m], last the energy residual [W], shape (torque, point)
-      real(wp), allocatable, intent(out) :: torques(:, :)
+      !> Torques [N m], after them the energy residual [W], last the force on the cam [N], shape (quantity, point)
+      real(wp), allocatable, intent(out) :: values(:, :)
 
       integer :: point, piece
 
       angles = [((piece_angle(curve, piece, point), point=1, panel_points), piece=1, curve%count)]
-      allocate (torques(torque_count, size(angles)))
+      allocate (values(curve_values, size(angles)))
       do piece = 1, curve%count
-         torques(:, panel_points*(piece - 1) + 1:panel_points*piece) = curve%values(:torque_count, :, piece)
+         values(:, panel_points*(piece - 1) + 1:panel_points*piece) = curve%values(:, :, piece)
       end do
    end subroutine curve_points
 
-   !> Points that tell how quantities run along a curve: those between which none of them turns or changes by much.
-   pure function telling_points(values) result(is_telling)
-      !> Quantities at the points in their order, shape (quantity, point) [unit of each]
+   !> Points that tell how quantities run along a curve: those between which all others lie on straight lines, or nearly, and those
+   !> at which a quantity turns. On both sides of a jump there is one.
+   !>
+   !> A line from one of these points stays near the points behind it as long as its slope is within bounds, which each of them
+   !> narrows (Williams, Comput. Graph. Image Process. 8 (1978) 286).
+   pure function telling_points(angles, values) result(is_telling)
+      !> The points, in order [rad]
+      real(wp), intent(in) :: angles(:)
+      !> Quantities there, shape (quantity, point) [unit of each]
       real(wp), intent(in) :: values(:, :)
       !> Does the point tell?
-      logical :: is_telling(size(values, 2))
+      logical :: is_telling(size(angles))
 
-      ! Changes over the extent of a quantity: that of a point of its own, that of a turn; extent that is rounding, over the
-      ! size [-]
-      real(wp), parameter :: far = 0.2_wp, little = 1.0e-4_wp, rounding = 1.0e-9_wp
+      ! Way from a line, change that is a turn, over the extent of a quantity; extent that is rounding, over the size [-]
+      real(wp), parameter :: bend = 0.02_wp, little = 1.0e-4_wp, rounding = 1.0e-9_wp
+      ! Angles that are the same but for rounding [rad]
+      real(wp), parameter :: same = 1.0e-12_wp
       ! Smallest and largest values [unit of each]; values over the extent of the quantities that have any [-]
       real(wp), dimension(size(values, 1)) :: lowest, highest
       real(wp), allocatable :: scaled(:, :)
-      ! Changes of a quantity from the last telling point and from the point before [-]
-      real(wp) :: change, before
+      ! Slopes of lines from the last telling point, at least and at most [1/rad]; way from it [rad], change of a quantity [-]
+      real(wp), dimension(size(values, 1)) :: least, most
+      real(wp) :: way, change
       integer, allocatable :: used(:)
-      integer :: last, i, quantity
-      logical :: is_jump
+      integer :: last, begun, i, quantity
+      logical :: is_bent, has_turn
 
       is_telling = .false.
       lowest = values(:, 1)
       highest = values(:, 1)
-      do i = 2, size(values, 2)
+      do i = 2, size(angles)
          lowest = min(lowest, values(:, i))
          highest = max(highest, values(:, i))
       end do
       used = pack([(i, i=1, size(lowest))], highest - lowest > rounding*max(abs(lowest), abs(highest)))
-      allocate (scaled(size(used), size(values, 2)))
-      do i = 1, size(values, 2)
+      allocate (scaled(size(used), size(angles)))
+      do i = 1, size(angles)
          scaled(:, i) = values(used, i)/(highest(used) - lowest(used))
       end do
+      begun = 0
       last = 1
-      do i = 2, size(values, 2) - 1
-         is_jump = .false.
+      i = 2
+      do while (i < size(angles))
+         if (begun /= last) then
+            least = -huge(1.0_wp)
+            most = huge(1.0_wp)
+            begun = last
+         end if
+         way = max(angles(i) - angles(last), same)
+         is_bent = .false.
+         has_turn = .false.
          do quantity = 1, size(used)
-            change = abs(scaled(quantity, i) - scaled(quantity, last))
-            if (.not. change > little) cycle
-            before = scaled(quantity, i) - scaled(quantity, i - 1)
-            is_jump = is_jump .or. abs(before) > far
-            is_telling(i) = is_telling(i) .or. change > far .or. (before > 0.0_wp .neqv. scaled(quantity, i + 1) &
-               & > scaled(quantity, i))
+            change = scaled(quantity, i) - scaled(quantity, last)
+            is_bent = is_bent .or. change/way < least(quantity) .or. change/way > most(quantity)
+            least(quantity) = max(least(quantity), (change - bend)/way)
+            most(quantity) = min(most(quantity), (change + bend)/way)
+            if (abs(change) > little) has_turn = has_turn .or. (scaled(quantity, i) > scaled(quantity, i - 1) .neqv. &
+               & scaled(quantity, i + 1) > scaled(quantity, i))
          end do
-         if (.not. is_telling(i)) cycle
-         ! A jump has a point on both sides
-         is_telling(i - 1) = is_telling(i - 1) .or. is_jump
-         last = i
+         ! The point before is on the line, and this one is looked at again from there
+         if (is_bent) last = i - 1
+         if (has_turn .and. .not. is_bent) last = i
+         is_telling(last) = is_telling(last) .or. last > 1
+         if (.not. is_bent) i = i + 1
       end do
    end function telling_points
 
@@ -352,19 +370,16 @@ contains
    end subroutine find_piece
 
    !> What a camshaft takes from a state.
-   pure function cam_values(model, state, has_force) result(values)
+   pure function cam_values(model, state) result(values)
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> The state
       type(state_t), intent(in) :: state
-      !> Does a bearing ask for the force?
-      logical, intent(in) :: has_force
-      !> Torques [N m], last the energy residual [W], and force on the cam, zero where no bearing asks for it [N]
+      !> Torques [N m], last the energy residual [W], and force on the cam [N]
       real(wp) :: values(curve_values)
 
       values(:torque_count) = state%torques
-      values(torque_count + 1:) = 0.0_wp
-      if (has_force) values(torque_count + 1:) = cam_force(model, state)
+      values(torque_count + 1:) = cam_force(model, state)
    end function cam_values
 
 end module camroller_lobe_curve

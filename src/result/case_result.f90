@@ -388,7 +388,7 @@ contains
             call state_at(cycle, model, angle, hint, state, error, nearby)
             if (allocated(error)) return
             call extend_trail(trail, angle, state%contact)
-            turn%values(:, i) = cam_values(model, state, allocated(solved%shaft%bearings))
+            turn%values(:, i) = cam_values(model, state)
             if (is_wanted) call follower_values(solved%case, model, state, result%series_values(i, columns(1):columns(2)))
          end do
       end associate

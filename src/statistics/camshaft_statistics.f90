@@ -200,7 +200,7 @@ contains
       real(wp), allocatable :: points(:), stops(:), angles(:)
       real(wp), dimension(size(lowest)) :: values, errors
       ! The first series of a single bearing, which are the last ones; turns that make rows, of a flexible train
-      integer :: single, turns, i, lobe, residual, series, sense
+      integer :: single, turns, kinks, i, lobe, residual, series, sense
 
       ! It is rounding, of which the rows show enough
       residual = find_quantity(list, trim(torque_series(of_residual)))
@@ -217,13 +217,12 @@ contains
             angles = [angles, points + solved%shaft%phases(i)]
          end do
       end do
-      angles = [stops - near, stops + near, angles]
-      stops = [stops - beside_jump, stops, stops + beside_jump]
-      angles = [stops, angles]
+      kinks = merge(size(stops), 0, turns == 0)
+      angles = [stops, stops - beside_jump, stops + beside_jump, stops - near, stops + near, angles]
       do i = 1, size(angles)
          call camshaft_row(solved, angles(i), values, error)
          if (allocated(error)) return
-         call add_sample(samples, angles(i), values, i <= size(stops) .and. turns == 0)
+         call add_sample(samples, angles(i), values, is_kink=i <= kinks)
       end do
       single = size(values) - bearing_series_count(solved%case) + 1
       do series = 1, size(values)
@@ -359,8 +358,8 @@ contains
       if (distance >= close*min(norm2(loads(:, 1)), norm2(loads(:, 2)))) distance = huge(1.0_wp)
    end subroutine find_nearest
 
-   !> Cam angles from full lift of the points that tell how the torques of a lobe's follower run, without that of the valve guide:
-   !> a loss that may take no part in the balance changes no bit of the others' extremes.
+   !> Cam angles from full lift of the points that tell how the torques of a lobe's follower run, and the size of its force on the
+   !> cam. Without the torque of the valve guide: a loss that may take no part in the balance changes no bit of other extremes.
    pure function points_of(statistics, list) result(angles)
       !> Its statistics: those of a flexible train with rows of torques
       type(statistics_t), intent(in) :: statistics
@@ -371,20 +370,21 @@ contains
 
       integer, parameter :: telling(*) = [of_geometric, of_contact, of_needle, of_roller_inertia, of_damping, of_tip, of_seal, &
          & of_guide_side, of_pivot, of_needle_drag, of_gas_damping]
-      ! Torques at the points [N m]
-      real(wp), allocatable :: torques(:, :)
+      ! Torques and force at the points [N m, N]
+      real(wp), allocatable :: values(:, :)
       integer :: i
 
       if (allocated(statistics%torque_rows%angle)) then
          angles = statistics%torque_rows%angle(:statistics%torque_rows%count)
          associate (rows => [(find_quantity(list, trim(torque_series(telling(i)))), i=1, size(telling))])
-            torques = statistics%torque_rows%values(pack(rows, rows > 0), :size(angles))
+            values = statistics%torque_rows%values(pack(rows, rows > 0), :size(angles))
          end associate
       else
-         call curve_points(statistics%curve, angles, torques)
-         torques = torques(telling, :)
+         call curve_points(statistics%curve, angles, values)
+         values(torque_count + 1, :) = norm2(values(torque_count + 1:, :), 1)
+         values = values([telling, torque_count + 1], :)
       end if
-      if (size(angles) > 0) angles = pack(angles, telling_points(torques))
+      if (size(angles) > 0) angles = pack(angles, telling_points(angles, values))
    end function points_of
 
    !> Find the row of the camshafts at a cam angle among those kept, or solve it, with what it is without the error of the sliding
@@ -427,17 +427,17 @@ contains
                call state_at(cycle, model, inside, shaft%hints(cam), state, error, &
                   & contact_near(statistics(lobe)%curve, inside))
                if (allocated(error)) return
-               cams(:, cam) = cam_values(model, state, allocated(shaft%bearings))
+               cams(:, cam) = cam_values(model, state)
                others(:, cam) = cams(:, cam)
                if (allocated(cycle%flexible)) then
                   hint = 1
                   call follower_on_path(model, cycle%flexible%finer, cycle%flexible%finer_resolution, inside, hint, right, error)
                   if (allocated(error)) return
-                  others(:, cam) = cam_values(model, right, allocated(shaft%bearings))
+                  others(:, cam) = cam_values(model, right)
                end if
                if (.not. allocated(statistics(lobe)%slip_errors%error)) cycle
                call state_without(model, cycle, inside, state, error_at(statistics(lobe)%slip_errors, inside), right, status)
-               if (status == 0) others(:, cam) = cam_values(model, right, allocated(shaft%bearings))
+               if (status == 0) others(:, cam) = cam_values(model, right)
             end associate
          end associate
       end do

@@ -236,3 +236,82 @@ def test_a_remark_names_bearing_and_camshaft_of_a_thin_film(camroller, tmp_path)
     # two digits are printed
     assert float(found[3]) == pytest.approx(1e6 * named.min(), rel=0.06)
     assert float(found[4]) == pytest.approx(100 * (named < 0.5e-6).mean(), rel=0.06)
+
+
+@pytest.mark.once
+def test_a_cam_midway_between_two_bearings_loads_each_with_half_of_its_force(camroller, tmp_path):
+    """The contact load is largest short of full lift, where the seal's friction reverses and no torque turns."""
+    path = tmp_path / "midway.nml"
+    left_out = "'sweep', 'lift', 'cam_bearings', 'asperity', 'needle_bearing', 'valve_guide'"
+    path.write_text(f"""include = '{ROOT}/decks/thesis.nml', without = {left_out}
+&operating_point
+speed_rpm = 1500
+oil_temperature_degC = 47
+/
+&roller
+mass_kg = 0.01
+/
+&masses
+valve_kg = 0.056
+finger_kg = 0.035
+/
+&spring
+stiffness_N_m = 30000
+precompression_mm = 9.5
+base_circle_load_N = 55
+/
+&lift
+law = 'cycloidal'
+max_lift_mm = 6.5
+opening_half_angle_deg = 76
+/
+&cam_bearings
+diameter_mm = 23
+width_mm = 10
+radial_clearance_um = 47.5
+bearing_positions_mm = 0, 60
+cam_positions_mm = 30
+bearing_series = .true.
+/
+&stem_seal
+lip_force_N = 5
+viscous_drag_N_s_m = 5
+reference_viscosity_Pa_s = 0.01
+/
+""")
+    found = run(camroller, path)
+    summary = found["summary"]
+    # The cam's force has the contact load and, at right angles to it, the traction with the rolling resistance
+    largest = math.hypot(summary["max_contact_load"], numpy.abs(found["friction_contact"]).max())
+    for bearing in (1, 2):
+        # Errors of extremes are 1e-4 of the accuracy here; without rows at the crest half of 3e-3 of the load was missing
+        assert summary["max_contact_load"] * (1 - 1e-6) < 2 * summary[f"max_bearing_{bearing}_load"] < largest * (1 + 1e-6)
+
+
+@pytest.mark.once
+@pytest.mark.parametrize(("name", "speed", "temperature"), [
+    ("four_cylinder", 2000, 120),  # largest friction of the second camshaft 0.02 degrees behind the end of an event
+    ("four_cylinder", 6000, 120),  # least friction in a dip of 0.2 degrees in which no torque of a follower turns
+    ("three_cam_head", 1200, 95),  # largest load of a bearing behind the end of an event
+])
+def test_extremes_of_a_camshaft_are_those_of_closely_spaced_series(camroller, tmp_path, name, speed, temperature):
+    """To twice the error that the result states, which is relative to the range of a series."""
+    path = tmp_path / "close.h5"
+    done = subprocess.run([camroller, "run", ROOT / f"decks/{name}.nml", "-o", path, "--quiet", "--point", f"speed_rpm={speed}",
+                           "--point", f"oil_temperature_degC={temperature}", "--set", "output.angle_step_deg=0.02", "--set",
+                           "cam_bearings.bearing_series=.true."], capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                          timeout=300, check=False)
+    assert done.returncode == 0, done.stderr
+    compared = 0
+    with h5py.File(path) as file:
+        summary = file["summary"]
+        allowed = 2 * summary["estimated_error_of_extremes"][0]
+        for quantity in file["series"]:
+            if f"min_{quantity}" not in summary or quantity == "energy_residual":
+                continue
+            values = file[f"series/{quantity}"][...]
+            least, largest = (summary[f"{end}_{quantity}"][0] for end in ("min", "max"))
+            beyond = max(least - values.min(), values.max() - largest)
+            assert beyond <= allowed * (largest - least), quantity
+            compared += 1
+    assert compared > 20

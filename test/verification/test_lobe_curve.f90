@@ -38,7 +38,7 @@ contains
          new_unittest("intervals with a kink of the states have no fitted curve", test_bends), &
          new_unittest("the curve of a flexible train with lost contacts agrees with its states", test_flexible), &
          new_unittest("smooth and short pieces of a curve are not halved", test_nothing_to_halve), &
-         new_unittest("without camshaft bearings there is no force, and torques are known where they are with them", test_absent), &
+         new_unittest("camshaft bearings change no torque of a curve, nor where the torques are known", test_absent), &
          new_unittest("points that tell how curves run miss no turn and no jump, and none is for rounding", test_telling), &
          new_unittest("the valves of a camshaft rest where none of its cams lifts one and no gas acts", test_rest) &
          ]
@@ -169,14 +169,14 @@ contains
       call check(error, size(halves), 16, "long pieces")
    end subroutine test_nothing_to_halve
 
-   !> Bearings ask for the force and change neither the torques of the curve nor where they are known.
+   !> Bearings change neither torques and force of the curve nor where the torques are known.
    subroutine test_absent(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t), target :: the_case
       type(lobe_curve_t) :: with, without
       type(error_t), allocatable :: failure
       real(wp) :: values(curve_values), others(curve_values)
-      logical :: is_known(2), are_known(2), has_force
+      logical :: is_known(2), are_known(2)
       integer :: i
 
       call get_deck_case("decks/thesis.nml", the_case, failure, number=1)
@@ -187,21 +187,16 @@ contains
          call test_failed(error, failure%message)
          return
       end if
-      has_force = .false.
       do i = 1, angles
          call curve_at(with, two_pi*i/angles, values, is_known)
          call curve_at(without, two_pi*i/angles, others, are_known)
-         has_force = has_force .or. any(abs(values(torque_count + 1:)) > 0.0_wp)
-         call check(error, all(abs(others(torque_count + 1:)) <= 0.0_wp), "there is a force without bearings")
-         if (allocated(error)) return
          call check(error, (is_known(1) .eqv. are_known(1)) .and. (are_known(2) .or. .not. are_known(1)), &
             "the torques are not known at the same angles")
          if (allocated(error)) return
          if (.not. is_known(1)) cycle
-         call check(error, all(abs(values(:torque_count) - others(:torque_count)) <= 0.0_wp), "a torque has changed")
+         call check(error, all(abs(values - others) <= 0.0_wp), "torques or force have changed")
          if (allocated(error)) return
       end do
-      call check(error, has_force, "there is no force with bearings")
    end subroutine test_absent
 
    !> Curve of the first lobe shape of a case.
@@ -261,7 +256,7 @@ contains
       do i = 1, angles
          if (.not. allocated(failure)) call state_at(cycle, models(1), two_pi*i/angles, hint, state, failure)
          if (allocated(failure)) exit
-         exact(:, i) = cam_values(models(1), state, allocated(the_case%cam_bearings))
+         exact(:, i) = cam_values(models(1), state)
          call curve_at(lobe_curve, two_pi*i/angles, curve(:, i), is_known(:, i))
       end do
       if (allocated(failure)) then
@@ -278,39 +273,46 @@ contains
       end do
    end subroutine compare
 
-   !> A wave, a step with a narrow peak before it, a constant, rounding
+   !> A wave, a step with a narrow peak before it, a slope with a small step in it, a constant, rounding
    subroutine test_telling(error)
       type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: n = 400, quantities = 4, step = 150, peak = 100
-      ! What a point tells within, and what a turn is at least, over the extent [-]; values, extents [any]
-      real(wp), parameter :: far = 0.2_wp, turn = 1.0e-4_wp
-      real(wp) :: values(quantities, n), extents(quantities)
+      integer, parameter :: n = 400, quantities = 5, step = 150, peak = 100, rise = 320
+      ! Way from the lines between points, and what a turn is at least, over the extent [-]; angles [rad]; values, values on the
+      ! lines, extents [any]
+      real(wp), parameter :: bend = 0.02_wp, turn = 1.0e-4_wp
+      real(wp) :: angle(n), values(quantities, n), on_line(3), extents(quantities)
       logical :: is_telling(n)
       integer, allocatable :: told(:)
       integer :: i, k
 
-      values(1, :) = [(cos(3.0_wp*two_pi*i/n), i=1, n)]
+      angle = [(two_pi*i/n, i=1, n)]
+      values(1, :) = cos(3.0_wp*angle)
       values(2, :) = [(merge(-7.0_wp, 5.0_wp, i < step), i=1, n)]
       values(2, peak) = -7.0_wp + 13.0_wp*turn
-      values(3, :) = 4.0_wp
-      values(4, :) = [(1.0_wp + 1.0e-13_wp*modulo(i, 2), i=1, n)]
-      is_telling = telling_points(values)
+      values(3, :) = [(real(i, wp)/n + 0.1_wp*max(0.0_wp, min(1.0_wp, 0.2_wp*(i - rise))), i=1, n)]
+      values(4, :) = 4.0_wp
+      values(5, :) = [(1.0_wp + 1.0e-13_wp*modulo(i, 2), i=1, n)]
+      is_telling = telling_points(angle, values)
       call check(error, is_telling(peak) .and. all(is_telling(step - 1:step)), "peak and jump")
+      if (allocated(error)) return
+      call check(error, is_telling(rise) .or. is_telling(rise + 1), "the step in a slope")
       if (allocated(error)) return
       extents = maxval(values, 2) - minval(values, 2)
       told = [1, pack([(i, i=1, n)], is_telling), n]
       do k = 1, size(told) - 1
-         associate (between => values(:2, told(k):told(k + 1)))
-            ! a step of the wave besides
-            if (.not. (told(k) < step .and. told(k + 1) >= step)) call check(error, all(maxval(between, 2) - minval(between, 2) &
-               & <= (far + 3.0_wp*two_pi/n)*extents(:2)), "the curve changes between points that tell")
+         associate (first => told(k), last => told(k + 1))
+            do i = first + 1, last - 1
+               on_line = values(:3, first) + (values(:3, last) - values(:3, first))*(i - first)/(last - first)
+               ! Bounds of slopes hold lines to twice the way, since a line ends in a point
+               call check(error, all(abs(values(:3, i) - on_line) <= 2.0_wp*bend*extents(:3)), "the curve leaves the lines")
+               if (allocated(error)) return
+            end do
          end associate
-         if (allocated(error)) return
       end do
-      ! five points for each half of a wave, peak and jump; rounding would tell at every one
-      call check(error, count(is_telling) < 45, "points that tell nothing")
+      ! Eight lines for each half of a wave, peak, jump and step; rounding would tell at every point
+      call check(error, count(is_telling) < 60, "points that tell nothing")
       if (allocated(error)) return
-      call check(error, count(telling_points(values(3:4, :))) == 0, "rounding tells")
+      call check(error, count(telling_points(angle, values(4:5, :))) == 0, "rounding tells")
    end subroutine test_telling
 
 end module test_lobe_curve
