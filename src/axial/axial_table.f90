@@ -13,6 +13,7 @@
 !> shorter as they are. Where the roller still carries all along at the smallest load of the table, lengths stay as they are there.
 module camroller_axial_table
    use camroller_kinds, only : wp, pi
+   use camroller_axial_gaps, only : axial_gaps_t, depth_of, new_axial_gaps, part_within
    use camroller_error, only : error_t, raise, kind_convergence, kind_deck
    use camroller_number_text, only : integer_text, number_text
    use camroller_roller_profile, only : roller_profile_t, check_roller_profile, coupling_half_space, coupling_names, profile_gap
@@ -45,8 +46,9 @@ module camroller_axial_table
       type(roller_profile_t) :: profile
       !> The numbers [m], [Pa], [m]
       real(wp) :: length, modulus, radii(2)
-      !> Gaps of the unloaded bodies in the middle of each slice, zero where they touch first [m]
+      !> Gaps of the unloaded bodies in the middle of each slice, zero where they touch first [m]; parts of the roller within a gap
       real(wp), allocatable :: gaps(:)
+      type(axial_gaps_t) :: parts_within
       !> ln(W/(E' L^2)) of the first and the last point, ln(R/L) of the radii [-]
       real(wp) :: first, last
       real(wp), allocatable :: log_radii(:)
@@ -93,6 +95,7 @@ contains
       call new_slices(slices, length, modulus, profile_gap(profile, length, modulus, places), &
          & profile%coupling == coupling_names(coupling_half_space))
       part%gaps = slices%gaps
+      part%parts_within = new_axial_gaps(slices%gaps)
       middle = 0.5_wp*log(radii(1)*radii(2)/length**2)
       reach = 0.5_wp*log(radii(2)/radii(1)) + radius_margin
       count = min(most_radii, 2 + int(2.0_wp*reach/radius_step))
@@ -471,16 +474,10 @@ contains
 
       ! Lengths and their slopes
       type(line_lengths_t) :: lengths, slopes(2)
-      ! Gap where the load ends [m]
-      real(wp) :: edge
-      integer :: i
 
       call effective_lengths(part, load, radius, lengths, slopes(1), slopes(2))
-      associate (gaps => part%gaps, n => size(part%gaps))
-         parts(1) = lengths%loaded/part%length
-         edge = minval(gaps, mask=[(count(gaps <= gaps(i)) >= n*parts(1), i=1, n)])
-         parts(2) = max(parts(1), real(count(gaps <= edge + film), wp)/n)
-      end associate
+      parts(1) = lengths%loaded/part%length
+      parts(2) = max(parts(1), part_within(part%parts_within, depth_of(part%parts_within, parts(1)) + film))
    end function oiled_parts
 
 end module camroller_axial_table

@@ -1,6 +1,7 @@
 !> Load along the roller: slices against closed forms, the table made of them.
 module test_axial
    use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_axial_gaps, only : axial_gaps_t, depth_of, new_axial_gaps, part_within
    use camroller_axial_table, only : axial_part_t, axial_state, axial_state_t, effective_lengths, new_axial_part, slice_loads
    use camroller_error, only : error_t, kind_deck
    use camroller_kinds, only : wp, pi
@@ -35,6 +36,7 @@ contains
          new_unittest("the table has the loads and the lengths of the slices between its points", test_table), &
          new_unittest("the largest load of a profile without tilt is in the middle, or always on the same side", test_sides), &
          new_unittest("loads are found for any profile, tilt, load and number of slices", test_all), &
+         new_unittest("the part of a roller within a depth is that of a parabola, whatever the number of slices", test_gaps), &
          new_unittest("impossible profiles are refused with a message", test_refusals) &
          ]
    end subroutine collect_axial
@@ -452,5 +454,34 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_refusals
+
+   !> A tilted parabola, which a depth cuts at two places, one or both of them on the roller, and a roller without gaps.
+   subroutine test_gaps(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      ! Lowest place from the middle [lengths of the roller]; depths over the gap at half a length from it [-]
+      real(wp), parameter :: lowest = 0.2_wp, depths(*) = [0.01_wp, 0.1_wp, 0.36_wp, 1.0_wp, 1.9_wp]
+      integer, parameter :: counts(*) = [11, 31, 41, 61, 201]
+      type(axial_gaps_t) :: table
+      ! Place on the parabola [lengths], part of the roller [-]
+      real(wp) :: half, part
+      integer :: i, k, n
+
+      do k = 1, size(counts)
+         n = counts(k)
+         table = new_axial_gaps([((2.0_wp*((i - 0.5_wp)/n - 0.5_wp - lowest))**2, i=1, n)])
+         do i = 1, size(depths)
+            half = 0.5_wp*sqrt(depths(i))
+            part = min(lowest + half, 0.5_wp) - max(lowest - half, -0.5_wp)
+            ! A line between two slices is above the parabola by 1/n^2 at most, one beyond the last by 3/n^2, over their slopes
+            call check(error, part_within(table, depths(i)), part, thr=(0.25_wp/half + 1.25_wp)/n**2, message="part within a depth")
+            if (allocated(error)) return
+            call check(error, part_within(table, depth_of(table, part)), part, thr=1.0e-12_wp, message="depth of a part")
+            if (allocated(error)) return
+         end do
+      end do
+      table = new_axial_gaps(spread(0.0_wp, 1, 21))
+      call check(error, part_within(table, depth_of(table, 0.5_wp) + 1.0e-7_wp), 1.0_wp, thr=0.0_wp, message="a cylinder")
+   end subroutine test_gaps
 
 end module test_axial
