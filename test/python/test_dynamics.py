@@ -518,7 +518,7 @@ def test_extremes_are_those_of_all_turns(tmp_path, camroller):
 
 @pytest.mark.once
 def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, camroller):
-    """The summary is their mean, spread and range; a case that repeats each turn has none, one without a period has 40."""
+    """The summary is their mean, spread and range, and says so, and the angle of the turn with the largest load; a case that repeats each turn has none, one without a period has 40."""
     done = subprocess.run([camroller, "sweep", ADJUSTER, "-o", tmp_path / "turns.h5", "--quiet", "--set", "sweep.values_1=300,1900,2200",
                            "--set", "numerics.tolerance=1e-3"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -531,8 +531,13 @@ def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, 
                 continue
             assert data.dims[1][0].name == "/turns/turn" and data.attrs["units"] == file[f"summary/{name}"].attrs["units"]
             assert np.isnan(data[0]).all() and np.isfinite(data[2]).all() and np.isfinite(data[1]).sum() == counts[1]
+            words = file[f"summary/{name}"].attrs["long_name"]
             if name.endswith("_angle"):
+                for case in (1, 2):  # angles have no mean
+                    assert file[f"summary/{name}"][case] == data[case, np.nanargmax(file["turns/dynamic_load_max"][case])]
+                assert words == "of all cycles: " + data.attrs["long_name"]
                 continue
+            assert words == "mean over the cycles: " + data.attrs["long_name"]
             for case in (1, 2):
                 values = data[case][np.isfinite(data[case])]
                 size = np.abs(values).max()
