@@ -550,6 +550,19 @@ def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, 
     assert done.returncode != 0 and re.findall(r"(\S+): in 1 case", done.stderr) == ["turns/dynamic_load_max"], done.stderr
 
 
+@pytest.mark.parametrize("deck, there", [(DECK, False), (ADJUSTER, True), (RIGID, True)], ids=["fixed pivot", "adjuster", "rigid"])
+def test_a_fixed_pivot_has_no_speed_at_which_an_adjuster_pumps_up(deck, there, tmp_path, camroller):
+    """A rigid train does not tell whether it has one; the joint unloads with both."""
+    first = deck.read_text().partition("&sweep")[0]
+    (tmp_path / "deck.nml").write_text(first)
+    told = done(camroller, "check", "deck.nml", folder=tmp_path).stdout
+    assert ("a lash adjuster pumps up above" in told) == there
+    done(camroller, "run", "deck.nml", "-o", "run.h5", "--quiet", "--set", "numerics.tolerance=1e-3", folder=tmp_path)
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert [name in file["summary"] for name in ("adjuster_force", "pump_up_speed")] == [there, there]
+        assert "margin_pivot" in file["summary"] and file["summary/margin_pivot_speed"].attrs["units"] == "rad s-1"
+
+
 def test_energy_lost_in_the_spring_is_that_of_its_modes(tmp_path, camroller):
     """m zeta sum omega_n times the integral of the square of each mode's speed, from the series by Fourier's sums."""
     done = subprocess.run([camroller, "run", DECK, "-o", tmp_path / "run.h5", *QUICK, "--set", "sweep.values_1=1500"], capture_output=True,
