@@ -80,7 +80,7 @@ contains
       end do
       call study_facts(deck, facts)
       call make_sweep_case(deck, 1, case, error)
-      if (.not. allocated(error)) call open_cases(writer, path, deck, facts, output_options_t(), .false., error)
+      if (.not. allocated(error)) call open_cases(writer, path, deck, facts, output_options_t(), .false., .false., error)
       if (.not. allocated(error)) call open_ehl(file, writer%file, merge(2, 1, allocated(case%second_lift)), angle_count, &
          & fewest_nodes, cycle_quantities, .false., error)
       if (allocated(error)) return

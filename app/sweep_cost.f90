@@ -89,7 +89,7 @@ contains
          call take(deck%settings, "sweep", "series_cases", chosen)
          space = space + number_size*real(cost%words_with_series - cost%words, wp)*size(chosen)
       end if
-      call get_echo(deck, echo)
+      call get_echo(deck, echo, .true.)
       fixed = entry_size*(size(echo%keys) + cost%scalars) + len(deck%text)
       fixed_with_series = fixed + entry_size*cost%series
       if (series /= series_none) fixed = fixed_with_series

@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 import numpy as np
 
 from layout import MOST_COLOURS, family, wrapped
-from parts import MOST_PANELS, columns_for, wrap_labels
+from parts import MOST_PANELS, columns_for, legend_height, wrap_labels
 from quantities import SOURCES, mean_of, source_words
 from units import number
 
@@ -34,8 +34,7 @@ def shown_in_bars(layout):
 def slip_bars(figure, layout):
     """Mean slip, bars of several files side by side."""
     _slip(figure.subplots(), layout)
-    if len(layout.files) > 1:
-        legend_below(figure, file_handles(layout))
+    legend_below(figure, bar_handles(slip_bars, layout))
 
 
 def torque_bars(figure, layout):
@@ -46,7 +45,7 @@ def torque_bars(figure, layout):
         if len(layout.files) > 1:
             letters = (0.5 if layout.is_list else AXES_PART) * _inches(axes) / (1.3 * CHARACTER)
             axes.set_title(textwrap.fill(layout.titles[number], int(letters)), fontsize="medium")
-    legend_below(figure, _source_handles(layout))
+    legend_below(figure, bar_handles(torque_bars, layout))
 
 
 def both_bars(figure, layout):
@@ -55,7 +54,7 @@ def both_bars(figure, layout):
     _slip(left, layout)
     _torque(right, layout, layout.files[0], True)
     right.tick_params(axis="y", labelleft=False)
-    legend_below(figure, _source_handles(layout))
+    legend_below(figure, bar_handles(torque_bars, layout))
 
 
 def _slip(axes, layout):
@@ -104,7 +103,10 @@ def file_handles(layout):
             for place, (number, tone) in enumerate(zip(layout.files, tones))]
 
 
-def _source_handles(layout):
+def bar_handles(part, layout):
+    """Legend of a bar chart: sources of friction, or the files where there are several."""
+    if part is slip_bars:
+        return file_handles(layout) if len(layout.files) > 1 else []
     return [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=source_words(layout, label))
             for _, label, tone, hatch in _sources(layout)]
 
@@ -114,8 +116,15 @@ def _sources(layout):
     return [source for source in SOURCES if any(source[0] in result.summary for result in layout.results)]
 
 
+def legend_inches(part, layout, width):
+    """Height of the lines of a bar chart's legend after the first, in a figure of some width [inch]."""
+    return legend_height((wrap_labels(bar_handles(part, layout), width), None), width)
+
+
 def legend_below(figure, handles):
-    """Legend below the bars."""
+    """Legend below the bars, where there is one."""
+    if not handles:
+        return
     handles = wrap_labels(handles, figure.bbox.width / figure.dpi)
     figure.legend(handles=handles, loc="outside lower center", ncols=columns_for(figure, handles), frameon=False,
                   columnspacing=1.0, handlelength=1.5)

@@ -7,8 +7,8 @@ FILE is a sweep over the speed alone, of a deck with `&spring_surge`, with its s
 camshaft, also where the deck gives that of an engine's crankshaft. In the map (after Campbell 1924) the force of the
 spring's modes is taken apart into harmonics of the cam: dashed lines are the natural frequencies of the clamped spring, dotted rays
 harmonics; a mode answers where a ray meets its line. Below stand the largest force beside the estimate that a rigid train gives before
-a run, and the speed of seating with its range over the cycles, dots for each turn where a motion does not repeat every turn. Exit code 2
-where the file cannot be used.
+a run, and the speed of seating with its range over the cycles, dots for each turn where a motion does not repeat every turn; lines are then
+means of the turns. Exit code 2 where the file cannot be used.
 """
 
 import argparse
@@ -78,13 +78,26 @@ def draw(result):
     speed = speed[order]
     figure = Figure(figsize=(8.0, 9.6), layout="constrained")
     above, middle, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.2, 1.0, 1.0))
-    draw_map(figure, above, result, order, speed)
+    rays = draw_map(figure, above, result, order, speed)
     draw_force(middle, result, order, speed)
     draw_seating(below, result, order, speed)
     below.set_xlabel("speed of the camshaft [rev/min]")
     below.set_xlim(speed[0], speed[-1])
     figure.suptitle("\n".join(textwrap.fill(line, TITLE) for line in (result.title, ", ".join(left_out(result, there))) if line))
+    keep_apart(figure, rays)
     return figure
+
+
+def keep_apart(figure, labels):
+    """Leave out labels that would stand on one below; they come from the lowest on."""
+    figure.draw_without_rendering()
+    top = -np.inf
+    for label in labels:
+        box = label.get_window_extent()
+        if box.y0 < top:
+            label.remove()
+        else:
+            top = box.y1
 
 
 def left_out(result, there):
@@ -95,7 +108,7 @@ def left_out(result, there):
 
 
 def draw_map(figure, axes, result, order, speed):
-    """Harmonics of the modes' force over speed and frequency."""
+    """Harmonics of the modes' force over speed and frequency; returns the numbers at the rays, from the lowest on."""
     amplitude = spectrum(mode_force(result)[order])
     frequencies = mode_frequencies(result)
     top = 1.15 * frequencies[-1]
@@ -111,18 +124,26 @@ def draw_map(figure, axes, result, order, speed):
         axes.axhline(natural, color="white", linestyle="--", linewidth=0.9)
         axes.annotate(f"mode {n}", (speed[0], natural), xytext=(4, 3), textcoords="offset points", color="white",
                       path_effects=OUTLINE)
+    labels = []
     for ray in RAYS:
         axes.plot(speed, ray * speed / 60.0, color="white", linestyle=":", linewidth=0.6)
         if ray * speed[-1] / 60.0 < top:
-            axes.annotate(str(ray), (speed[-1], ray * speed[-1] / 60.0), xytext=(-14, -3), textcoords="offset points", color="white",
-                          path_effects=OUTLINE)
+            labels.append(axes.annotate(str(ray), (speed[-1], ray * speed[-1] / 60.0), xytext=(-14, -3), textcoords="offset points",
+                                        color="white", path_effects=OUTLINE))
     axes.set_ylim(0.0, top)
     axes.set_ylabel("frequency [Hz]")
+    return labels
+
+
+def of_turns(result, order, words):
+    """What a scalar of the train is called: the mean of its turns where one of the cases drawn has several."""
+    several = "summary_cycles" in result.summary and (result.summary["summary_cycles"].values[order] > 1).any()
+    return f"{words}, mean of the turns" if several else words
 
 
 def draw_force(axes, result, order, speed):
     """Largest force of the modes beside its estimate."""
-    axes.plot(speed, result.summary["surge_force"].values[order], color="#08306b", label="largest force of mode 1")
+    axes.plot(speed, result.summary["surge_force"].values[order], color="#08306b", label=of_turns(result, order, "largest force of mode 1"))
     if "surge_estimate_1" in result.summary:
         axes.plot(speed, result.summary["surge_estimate_1"].values[order], color="#d95f02", linestyle="--",
                   label="the same estimated from a rigid train")
@@ -133,7 +154,7 @@ def draw_force(axes, result, order, speed):
 
 def draw_seating(axes, result, order, speed):
     """Speed of seating with its range over the cycles, and bounces."""
-    lines = axes.plot(speed, result.summary["seating_speed"].values[order], color="#08306b", label="speed of seating")
+    lines = axes.plot(speed, result.summary["seating_speed"].values[order], color="#08306b", label=of_turns(result, order, "speed of seating"))
     axes.fill_between(speed, result.summary["seating_speed_lowest"].values[order], result.summary["seating_speed_highest"].values[order],
                       color="#08306b", alpha=0.25, linewidth=0.0)
     for case, place in zip(order, speed):

@@ -9,11 +9,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 import numpy as np
 
-from bars import MOST_BARS, both_bars, file_handles, shown_in_bars, slip_bars, torque_bars
+from bars import MOST_BARS, both_bars, legend_inches, shown_in_bars, slip_bars, torque_bars
 from dampers import dampers_figure
 from layout import line_style, wrapped
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
-                   legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis, suited, wrap_labels)
+                   legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis, suited)
 from quantities import (CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, source_words,
                         values_of)
 from roller import roller_figure
@@ -152,13 +152,15 @@ def overview_figure(layout, wanted, parts, needed=()):
     shown = layout.shown_colours(), panels, [curve.series for curve in curves]
     width = 2.0 + 3.2 * columns
     legend = legend_handles(layout, layout.drawn(*shown), width)
-    heights = [1.5 + 1.5 * rows + legend_height(legend, width), lying_height(layout) or 2.6 + 0.8 * len(layout.files)]
+    together = layout.is_list and len(bars) > 1 and len(layout.files) == 1
+    below = max([legend_inches(part, layout, width if together else width / len(bars)) for part in bars], default=0.0)
+    heights = [1.5 + 1.5 * rows + legend_height(legend, width), (lying_height(layout) or 2.6 + 0.8 * len(layout.files)) + below]
     figure = Figure(figsize=(width, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
     _overview_curves(upper, layout, curves, panels, (rows, columns))
     head(upper, layout, "", legend, _left_out(layout, layout.shown_words(*shown), bars) + layout.turn_words(),
          shown[2] + [name for part in bars for name in MEANS[part]])
-    if layout.is_list and len(bars) > 1 and len(layout.files) == 1:
+    if together:
         both_bars(lower, layout)
         return figure
     for part, place in zip(bars, np.atleast_1d(lower.subfigures(1, len(bars))) if bars else []):
@@ -218,8 +220,7 @@ def bars_figure(part, title, layout):
     layout.refuse_too_many(MOST_BARS)
     rows = len(layout.files) if part is torque_bars else 1
     height = 0.6 + lying_height(layout) if layout.is_list else 2.6 + 1.9 * rows
-    if part is slip_bars and len(layout.files) > 1:
-        height += legend_height((wrap_labels(file_handles(layout), BARS_WIDTH), None), BARS_WIDTH)
+    height += legend_inches(part, layout, BARS_WIDTH)
     figure = Figure(figsize=(BARS_WIDTH, height), layout="constrained")
     part(figure, layout)
     head(figure, layout, title, ([], None), _left_out_of_bars(layout), MEANS[part])

@@ -29,7 +29,7 @@ QUANTITIES = {"mean_torque": "mean friction torque", "minimum_film": "smallest f
 COLUMNS = ["case", "run", "effect", "status", "time_share", "is_left_out",
            *(prefix + name for name in QUANTITIES for prefix in ("change_", "estimate_"))]
 FLOOR = 1e-7  # changes below are drawn there, and the figure says so: the accuracy of the runs
-UNKNOWN = 1e10  # estimates from here on mean that nothing can be said
+UNKNOWN = 1e10  # estimates from here on are no bound: infinite, the largest number in files of older programs
 FAR = 5.0  # widths of the middle half of all shares of time: what is farther from that half was disturbed by the machine, and is not shown
 
 

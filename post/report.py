@@ -20,6 +20,8 @@ matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "camroller",
                             "hatch.linewidth": 0.6, "hatch.color": "white"})
 
+import numpy as np  # noqa: E402
+
 from cases import failure_lines, failures, missing_words, status_of  # noqa: E402
 from command import run, words_as_they_are, write_text  # noqa: E402
 from figures import draw  # noqa: E402
@@ -141,13 +143,18 @@ def figures_of(result):
 
 
 def defaults_of(result):
-    """Values that the deck does not give."""
+    """Values that the deck does not give, of keys that are used."""
     with opened(result.path) as file:
         group = file["deck/values"] if "deck/values" in file else {}
-        rows = [(key, text_of(data[()]), "" if text_of(data.attrs.get("units", "")) == "1" else text_of(data.attrs["units"]))
-                for key, data in group.items() if text_of(data.attrs.get("given", "")) == "default"]
+        rows = [(key, value_words(data[()]), "" if text_of(data.attrs.get("units", "")) == "1" else text_of(data.attrs["units"]))
+                for key, data in group.items() if text_of(data.attrs.get("given", "")) == "default" and text_of(data.attrs.get("used", "")) != "no"]
     return estimates_of(result) + ("<p>Values that the deck does not give and that were taken by default:</p>\n" + rows_to_html(
         ["key", "value", "unit"], rows, words=3) if rows else "")
+
+
+def value_words(value):
+    """A value of the deck: numbers with as many digits as a deck has, whole ones without a point."""
+    return f"{value:.15g}" if isinstance(value, np.floating) else text_of(value)
 
 
 def estimates_of(result):

@@ -69,6 +69,27 @@ def test_map_is_brightest_where_the_harmonic_is(tmp_path):
         assert heights[image[:, case].argmax()] == pytest.approx(10 * speed / 60.0, abs=1.5)
 
 
+@pytest.mark.parametrize("slowest", [600.0, 100.0])
+def test_numbers_at_the_rays_do_not_stand_on_each_other(tmp_path, slowest):
+    path = write_sweep(tmp_path / "a.h5", [1e-5] * 5)
+    with h5py.File(path, "a") as file:
+        file["sweep/operating_point.speed_rpm"][...] = [slowest, 2 * slowest, 3 * slowest]
+    figure = campbell.draw(read_result(path))
+    figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in figure.axes[0].texts if text.get_text().isdigit()]
+    assert len(boxes) > 1 and all(lower.y1 <= upper.y0 for lower, upper in zip(boxes, boxes[1:]))
+
+
+@pytest.mark.parametrize("cycles, words", [(None, ""), ([1.0, 1.0, 1.0], ""), ([1.0, 2.0, 40.0], ", mean of the turns")])
+def test_means_of_several_turns_are_called_so(tmp_path, cycles, words):
+    path = write_sweep(tmp_path / "a.h5", [1e-5])
+    with h5py.File(path, "a") as file:
+        if cycles:
+            file["summary/summary_cycles"] = cycles
+    _, middle, below, *_ = campbell.draw(read_result(path)).axes
+    assert middle.lines[0].get_label() == f"largest force of mode 1{words}" and below.lines[0].get_label() == f"speed of seating{words}"
+
+
 def test_every_turn_of_a_motion_that_does_not_repeat_has_its_dot(tmp_path):
     path = write_sweep(tmp_path / "a.h5", [1e-5])
     with h5py.File(path, "a") as file:

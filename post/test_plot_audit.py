@@ -19,7 +19,7 @@ def made_up(tmp_path):
         audit["status"] = np.array([0, 0, 0, 0, 0, 5.0])
         for name in ("mean_torque", "minimum_film", "slip"):
             audit["change_" + name] = np.array([0, -0.25, 0.01, 0, -0.5, np.nan])
-            audit["estimate_" + name] = np.array([np.nan, 0.5, 1e300, np.nan, 0.6, 1e300])
+            audit["estimate_" + name] = np.array([np.nan, 0.5, np.inf, np.nan, 0.6, 1.797e308])
         audit["time_share"] = np.array([0, 0.3, 0.0, 0, 0.5, np.nan])
         audit["is_left_out"] = np.array([np.nan, 0, 1, np.nan, 0, 0])
     return tmp_path / "made_audit.h5"

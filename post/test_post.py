@@ -204,6 +204,23 @@ def test_bars_have_the_colours_of_the_curves_and_of_their_legend(tmp_path):
     assert curves == [to_hex(handle.get_facecolor()) for handle in slip.legends[0].legend_handles]
 
 
+@pytest.mark.parametrize("name", ["overview", "mean_torque"])
+def test_a_long_legend_takes_no_height_from_the_bars(nine, name):
+    """Of the friction of all sources that there are, as of a few of them."""
+    heights = []
+    for _ in range(2):
+        figure = draw(name, Layout([read_result(nine)]))
+        figure.draw_without_rendering()
+        bars = next(axes for axes in figure.axes if axes.get_ylabel().startswith("mean friction"))
+        heights.append(bars.get_window_extent().height / figure.dpi)
+        with h5py.File(nine, "a") as file:
+            for source, *_ in SOURCES:
+                if source not in file["summary"]:
+                    file[f"summary/{source}"] = np.full(9, 1e-3)
+                    file[f"summary/{source}"].attrs["units"] = "N m"
+    assert heights[1] > 0.9 * heights[0], heights
+
+
 def test_surfaces_over_hours_are_those_of_the_file(tmp_path):
     path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
     columns = made_up_hours()

@@ -105,6 +105,23 @@ def test_page_shows_the_point_and_the_values_given_beside_the_deck(tmp_path):
 
 
 @pytest.mark.usefixtures("no_figures")
+def test_defaults_are_those_that_something_uses_and_whole_numbers_have_no_point(tmp_path):
+    source = write_result(tmp_path / "nine.h5")
+    with h5py.File(source, "a") as file:
+        for key, value, unit, given, used in (
+                ("numerics.max_cycles", 40, "1", "default", "yes"), ("lift.exponents", 4.0, "1", "default", "yes"),
+                ("film.accuracy", 1e-7, "1", "default", "yes"), ("numerics.step_deg", 0.1, "degree", "default", "no"),
+                ("masses.valve_kg", 0.05, "kg", "given", "yes"), ("lift.exponents_2", 0.1 + 0.2, "mm", "default", None)):
+            data = file.require_group("deck/values").create_dataset(key, data=value)
+            data.attrs["units"], data.attrs["given"] = unit, given
+            if used:  # files of older programs do not tell
+                data.attrs["used"] = used
+    page = page_of(read_result(source))
+    rows = re.findall("<tr><td class=word>(.*?)</td><td class=word>(.*?)</td><td class=word>(.*?)</td></tr>", page.partition("taken by default")[2])
+    assert rows == [("film.accuracy", "1e-07", ""), ("lift.exponents", "4", ""), ("lift.exponents_2", "0.3", "mm"), ("numerics.max_cycles", "40", "")]
+
+
+@pytest.mark.usefixtures("no_figures")
 def test_cases_that_a_partial_file_does_not_have_are_not_computed(tmp_path):
     source = write_result(tmp_path / "nine.h5")
     with h5py.File(source, "a") as file:

@@ -1,13 +1,13 @@
 !> Real kind, mathematical and physical constants, used everywhere.
 !>
-!> In: nothing. Out: the working precision `wp`, `pi`, `gas_constant`; no number.
+!> In: nothing. Out: the working precision `wp`, `pi`, `gas_constant`; no number, infinity.
 module camroller_kinds
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : real64
    implicit none
    private
 
-   public :: wp, pi, two_pi, degree, per_minute, celsius_zero, gas_constant, not_a_number
+   public :: wp, pi, two_pi, degree, per_minute, celsius_zero, gas_constant, not_a_number, infinite_if_huge
 
    !> Working precision of every real in the library
    integer, parameter :: wp = real64
@@ -33,5 +33,16 @@ contains
 
       number = ieee_value(1.0_wp, ieee_quiet_nan)
    end function not_a_number
+
+   !> A smallest value or bound that nothing has lowered is infinite.
+   elemental function infinite_if_huge(number) result(number_or_infinity)
+      !> It, `huge` where nothing has [any]
+      real(wp), intent(in) :: number
+      !> The same, or infinity [any]
+      real(wp) :: number_or_infinity
+
+      number_or_infinity = number
+      if (number >= huge(1.0_wp)) number_or_infinity = ieee_value(1.0_wp, ieee_positive_inf)
+   end function infinite_if_huge
 
 end module camroller_kinds

@@ -52,7 +52,7 @@ module camroller_case_writer
 contains
 
    !> Start a result file with all that is known before the first case.
-   subroutine open_cases(writer, path, deck, facts, options, is_sparse, error)
+   subroutine open_cases(writer, path, deck, facts, options, is_sparse, of_runs, error)
       !> The sink
       type(case_writer_t), intent(inout) :: writer
       !> Path of the finished file
@@ -65,13 +65,15 @@ contains
       type(output_options_t), intent(in) :: options
       !> Do only few cases have series?
       logical, intent(in) :: is_sparse
+      !> Are they runs?
+      logical, intent(in) :: of_runs
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
       writer%tally%cases = facts%cases
       allocate (writer%joint%summary(0), writer%joint%series(0), writer%joint%angle(0))
       call open_output(writer%file, path, facts%cases, options, error, is_sparse)
-      if (.not. allocated(error)) call write_facts(writer%file, deck, error, facts)
+      if (.not. allocated(error)) call write_facts(writer%file, deck, of_runs, error, facts)
       if (allocated(error)) call abandon_output(writer%file)
    end subroutine open_cases
 

@@ -45,11 +45,13 @@ module camroller_run_facts
 contains
 
    !> Deck, sweep and build into the result file.
-   subroutine write_facts(writer, deck, error, facts)
+   subroutine write_facts(writer, deck, of_runs, error, facts)
       !> The result file
       type(output_t), intent(inout) :: writer
       !> The deck
       type(deck_t), intent(in) :: deck
+      !> Is the file one of runs? A command that is none may use other keys
+      logical, intent(in) :: of_runs
       !> File error
       type(error_t), allocatable, intent(out) :: error
       !> The study as it was when its first case was computed; without it, as it is now
@@ -62,8 +64,8 @@ contains
       type(echo_t) :: echo
       integer :: i
 
-      call get_echo(deck, echo)
-      call write_deck(writer, deck%text, echo%keys, echo%values, echo%units, echo%origins, error)
+      call get_echo(deck, echo, of_runs)
+      call write_deck(writer, deck%text, echo%keys, echo%values, echo%is_whole, echo%units, echo%origins, echo%is_used, error)
       if (.not. allocated(error)) call write_beside(writer, deck, error)
       do i = 1, size(deck%sweep%axes)
          if (allocated(error)) return
@@ -235,7 +237,7 @@ contains
       integer :: i
 
       facts%cases = sweep_size(deck%sweep)
-      call get_echo(deck, echo)
+      call get_echo(deck, echo, .true.)
       facts%deck = ""
       do i = 1, size(echo%keys)
          if (any(echo%keys(i) == keys_beside_cases)) cycle

@@ -123,7 +123,8 @@ contains
       call take(deck%settings, "output", "compression", options%compression)
       series = series_choice(deck%settings)
       if (.not. is_direct) options%series = series /= series_none
-      call open_cases(writer, study%path, deck, study%facts, options, series == series_chosen .and. .not. is_direct, error)
+      call open_cases(writer, study%path, deck, study%facts, options, series == series_chosen .and. .not. is_direct, .true., &
+         & error)
    end subroutine open_result
 
    !> The error that a study ends with where cases failed.

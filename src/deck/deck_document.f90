@@ -7,7 +7,7 @@ module camroller_deck_document
       & group_standard, group_effect, type_number, type_integer, type_logical, type_name, type_text, type_numbers, &
       & type_integers, key_length
    use camroller_deck_keys, only : new_schema
-   use camroller_key_uses, only : say_use
+   use camroller_key_uses, only : is_idle, say_use
    use camroller_deck, only : deck_t
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_near_names, only : nearest_name
@@ -36,21 +36,25 @@ module camroller_deck_document
       character(len=unit_name_length), allocatable :: units(:)
       !> `given` or `default`
       character(len=8), allocatable :: origins(:)
+      !> Is it a whole number? May it change anything in a case of the deck?
+      logical, allocatable :: is_whole(:), is_used(:)
    end type echo_t
 
 contains
 
    !> Every value of the groups that a deck has or takes by default.
-   subroutine get_echo(deck, echo)
+   subroutine get_echo(deck, echo, of_runs)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Its values
       type(echo_t), intent(out) :: echo
+      !> Is it used by runs, or by any command?
+      logical, intent(in) :: of_runs
 
       integer :: i, n
 
       n = count(is_shown(deck, [(i, i=1, deck%schema%key_count)]))
-      allocate (echo%keys(n), echo%values(n), echo%units(n), echo%origins(n))
+      allocate (echo%keys(n), echo%values(n), echo%units(n), echo%origins(n), echo%is_whole(n), echo%is_used(n))
       n = 0
       do i = 1, deck%schema%key_count
          if (.not. is_shown(deck, i)) cycle
@@ -60,6 +64,8 @@ contains
             echo%values(n)%text = value%text
             echo%units(n) = key%unit%symbol
             echo%origins(n) = merge("given  ", "default", value%is_given)
+            echo%is_whole(n) = key%type == type_integer
+            echo%is_used(n) = .not. is_idle(deck%settings, deck%sweep, trim(echo%keys(n)), of_runs)
          end associate
       end do
    end subroutine get_echo

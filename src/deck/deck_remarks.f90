@@ -21,7 +21,7 @@ module camroller_deck_remarks
    use camroller_key_uses, only : is_idle, say_idle
    use camroller_engine, only : speed_names
    use camroller_settings, only : settings_t, get_word, has_group, take, find_value
-   use camroller_deck_table_remarks, only : remark_lift, remark_pressure, remark_rows
+   use camroller_deck_table_remarks, only : remark_lift, remark_measured, remark_pressure, remark_rows
    use camroller_deck_tables, only : deck_tables_t, find_table, table_groups
    use camroller_table_file, only : table_t
    use camroller_case, only : case_t, select_names, select_needed
@@ -74,6 +74,7 @@ contains
       do i = 1, size(table_groups)
          call remark_tables(deck, trim(table_groups(i)), .false., remarks)
       end do
+      call remark_measured(deck%sweep, remarks)
       call remark_unused(deck, remarks)
       if (.not. present(of_hosts)) return
       if (of_hosts .and. get_word(deck%settings, "effects", "select") == select_names(select_needed)) call add_line(remarks, &

@@ -40,6 +40,8 @@ module camroller_deck_sweep
       character(len=:), allocatable :: key
       !> Unit of its values; `1` for none
       character(len=name_length) :: unit = "1"
+      !> Is the unit said, be it that there is none? A column of measured values may say nothing of it
+      logical :: has_unit = .true.
       !> Are the values numbers, and whole ones?
       logical :: is_numeric = .false., is_whole = .false.
       !> Its values as text; none for a range

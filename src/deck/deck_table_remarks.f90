@@ -4,8 +4,10 @@
 !> In: settings and a table. Out: sentences. Nothing is refused for them.
 module camroller_deck_table_remarks
    use camroller_case, only : case_t, gas_force_of
+   use camroller_case_columns, only : measured_prefix
    use camroller_deck_case, only : fill_case
    use camroller_deck_engine, only : strokes_of
+   use camroller_deck_sweep, only : sweep_t
    use camroller_deck_tables, only : ask_crank, deck_tables_t, get_lift_table, get_pressure_table
    use camroller_dynamics, only : gas_force_t
    use camroller_engine, only : from_firing
@@ -19,11 +21,11 @@ module camroller_deck_table_remarks
    use camroller_settings, only : get_word, has_group, is_known, settings_t, take
    use camroller_spline, only : evaluate_spline, new_periodic_spline, spline_t
    use camroller_table_file, only : table_t
-   use camroller_units, only : find_unit, pressure_unit_names, to_si, unit_t
+   use camroller_units, only : find_unit, pressure_unit_names, to_si, unit_of_key, unit_t
    implicit none
    private
 
-   public :: remark_lift, remark_pressure, remark_rows
+   public :: remark_lift, remark_measured, remark_pressure, remark_rows
 
    !> Digits of numbers in sentences
    integer, parameter :: digits = 6
@@ -43,6 +45,27 @@ module camroller_deck_table_remarks
    integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
 
 contains
+
+   !> Measured values of a table of cases whose heading says nothing of their unit, but for the last words of a name: those are the
+   !> unit of a key, and only a part of the name here.
+   subroutine remark_measured(sweep, remarks)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(unit_t) :: unit
+      integer :: i
+
+      do i = 1, size(sweep%measured)
+         associate (column => sweep%measured(i))
+            unit = unit_of_key(column%key)
+            if (column%has_unit .or. unit%symbol == "1") cycle
+            call add_line(remarks, measured_prefix//column%key//" counts as without a unit, whatever its name ends "// &
+               & "with: a unit stands in brackets, as in 'measured.torque [N m]', and [1] for none")
+         end associate
+      end do
+   end subroutine remark_measured
 
    !> A lift table in another unit, or over another angle.
    subroutine remark_lift(settings, group, table, remarks)

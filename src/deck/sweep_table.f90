@@ -292,7 +292,7 @@ contains
       measured%is_numeric = .true.
       opening = index(column%key//" [", " [")
       measured%key = column%key(len(measured_prefix) + 1:opening - 1)
-      measured%unit = "1"
+      measured%has_unit = column%unit /= "" .or. opening < len(column%key)
       measured%values = column%cells
       if (measured%key == "" .or. verify(measured%key, letters) > 0) then
          call add_mistake(mistakes, "'"//column%key//"': the name behind '"//measured_prefix// &

@@ -2,7 +2,7 @@
 !>
 !> In: a result, the choice. Out: the result with scalars of source `effects`.
 module camroller_effect_report
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : infinite_if_huge, wp
    use camroller_case, only : quantity_names
    use camroller_effect_list, only : choice_t, effect_ehl, effect_film, effect_names
    use camroller_remarks, only : outside_range
@@ -39,8 +39,9 @@ contains
                & merge(1.0_wp, 0.0_wp, decision%is_used))
             do k = 1, size(quantity_names)
                call append_quantity(list, name//"_estimate_"//trim(quantity_names(k)), "1", &
-                  & "largest relative change expected without the effect; huge where there is no estimate", choice_source, &
-                  & decision%estimates(k))
+                  & "largest relative change expected without the effect; infinite where there is no bound", choice_source, &
+                  & infinite_if_huge(decision%estimates(k)))
+               list%items(list%count)%may_be_infinite = .true.
             end do
          end associate
       end do

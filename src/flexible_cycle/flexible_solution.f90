@@ -16,7 +16,8 @@ module camroller_flexible_solution
    use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, extrapolate, rest_of_train
    use camroller_flexible_moves, only : is_possible
    use camroller_flexible_turn, only : turn_t, start_turns, set_tolerance, integrate_turn
-   use camroller_flexible_measures, only : measure_count, measure_turn, seating_speed, smallest_lift
+   use camroller_flexible_measures, only : largest_load, largest_load_angle, measure_count, measure_turn, &
+      & seating_speed, smallest_lift
    use camroller_flexible_trend, only : find_trend, trend_t
    implicit none
    private
@@ -65,7 +66,8 @@ module camroller_flexible_solution
       type(trajectory_t), allocatable :: turns(:)
       !> Measures of each turn, shape (measure, turn) [unit of the measure]
       real(wp), allocatable :: values(:, :)
-      !> Means of the measures over the turns, their standard deviations, smallest and largest [unit of the measure]
+      !> Means of the measures over the turns that have them, their standard deviations, smallest and largest [unit of the measure];
+      !> the angle of the largest load is that of the turn with the largest of all
       real(wp), allocatable :: mean(:), deviation(:), lowest(:), highest(:)
       !> How the turns for statistics change from one to the next
       type(trend_t) :: trend
@@ -229,7 +231,7 @@ contains
       if (method == single_method) method = method_for_trains
    end function train_method
 
-   !> Measures of all turns.
+   !> Measures of all turns, and what they come to.
    subroutine take_measures(solution, model, error)
       !> The solution
       type(flexible_solution_t), intent(inout) :: solution
@@ -250,11 +252,15 @@ contains
       allocate (solution%mean(n), solution%deviation(n), solution%lowest(n), solution%highest(n))
       associate (values => solution%values)
          do i = 1, n
-            if (i == seating_speed) then
+            select case (i)
+            case (seating_speed)
                call describe(pack(values(i, :), values(smallest_lift, :) <= 0.0_wp), solution, i)
-            else
+            case (largest_load_angle)
+               ! Angles have no mean: that of the turn with the largest load counts
+               call describe([values(i, maxloc(values(largest_load, :), 1))], solution, i)
+            case default
                call describe(values(i, :), solution, i)
-            end if
+            end select
          end do
       end associate
    end subroutine take_measures

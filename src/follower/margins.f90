@@ -5,8 +5,7 @@
 !> a smooth function of the cam angle; each such interval is scanned, ends included, and an interior minimum is located to
 !> round-off.
 module camroller_margins
-   use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_positive_inf
-   use camroller_kinds, only : wp, pi, degree
+   use camroller_kinds, only : wp, pi, degree, infinite_if_huge
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_gas, only : gas_force
    use camroller_lift, only : is_at_rest
@@ -39,6 +38,8 @@ module camroller_margins
       type(margin_t), allocatable :: pivot
       !> Force between a valve on the base circle and its seat, the same at all speeds; allocated where gas acts on a rigid train
       type(margin_t), allocatable :: seat
+      !> May there be a lash adjuster? A rigid train does not tell, a flexible one has one or has none
+      logical :: may_have_adjuster = .true.
       !> Force of the lash adjuster on the base circle [N], and the cam speed at which the pivot's force first falls to it [rad/s]
       real(wp) :: adjuster_force = 0.0_wp, pump_up_speed = huge(1.0_wp)
    end type margins_t
@@ -76,6 +77,7 @@ contains
       integer :: i
 
       in_event = is_event(model, ends)
+      if (allocated(model%flexible)) margins%may_have_adjuster = allocated(model%flexible%adjuster)
       if (allocated(model%pivot)) then
          allocate (margins%pivot)
          margins%adjuster_force = adjuster_force(model)
@@ -310,16 +312,5 @@ contains
       ratio = 0.0_wp
       if (split%static > 0.0_wp) ratio = split%inertia/split%static
    end function relative_inertia
-
-   !> A speed that nothing has lowered is infinite.
-   function infinite_if_huge(speed) result(speed_or_infinity)
-      !> Speed [rad/s]
-      real(wp), intent(in) :: speed
-      !> The same, or infinity [rad/s]
-      real(wp) :: speed_or_infinity
-
-      speed_or_infinity = speed
-      if (speed >= huge(1.0_wp)) speed_or_infinity = ieee_value(1.0_wp, ieee_positive_inf)
-   end function infinite_if_huge
 
 end module camroller_margins

@@ -33,6 +33,12 @@ module camroller_hdf5_file
       module procedure write_plane_of_numbers
    end interface write_numbers
 
+   !> Write integers
+   interface write_integers
+      module procedure write_integer
+      module procedure write_run_of_integers
+   end interface write_integers
+
    !> Space kept ready for the library's own records [byte]
    integer(c_int64_t), parameter :: spare_space = 524288_c_int64_t
 
@@ -353,8 +359,20 @@ contains
       call write_block(dataset, h5t_native_double, corner, extents, c_loc(plane), error)
    end subroutine write_plane_of_numbers
 
+   !> Write a single integer.
+   subroutine write_integer(dataset, number, error)
+      !> A dataset without axes
+      type(hdf5_object_t), intent(in) :: dataset
+      !> The number
+      integer, intent(in), target :: number
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call write_block(dataset, h5t_native_integer, [integer ::], [integer ::], c_loc(number), error)
+   end subroutine write_integer
+
    !> Write the integers of a dataset.
-   subroutine write_integers(dataset, numbers, error)
+   subroutine write_run_of_integers(dataset, numbers, error)
       !> A dataset with one axis
       type(hdf5_object_t), intent(in) :: dataset
       !> The numbers
@@ -364,7 +382,7 @@ contains
 
       if (size(numbers) == 0) return
       call write_block(dataset, h5t_native_integer, [0], shape(numbers), c_loc(numbers), error)
-   end subroutine write_integers
+   end subroutine write_run_of_integers
 
    !> Write one text.
    subroutine write_text(dataset, position, text, error)

@@ -360,7 +360,9 @@ contains
       if (has_lash) call describe_lash(model, name, text)
       if (find_quantity(result%summary, prefix//"train_frequency") == 0) return
       call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", speed_factor)
-      if (.not. has_lash) call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", speed_factor)
+      if (find_quantity(result%summary, prefix//"pump_up_speed") > 0) then
+         call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", speed_factor)
+      end if
       call add_value(unit//"; natural frequency of the train ", "train_frequency", 1.0_wp)
       call add_value(" Hz, load of a train that vibrates over a rigid one's ", "load_factor", 1.0_wp)
       if (has_lash) text = text//" without the impact that takes up the lash"

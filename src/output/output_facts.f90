@@ -5,8 +5,8 @@ module camroller_output_facts
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_hdf5_object, only : hdf5_object_t
-   use camroller_hdf5_file, only : close_object, create_group, create_numbers, create_texts, reserve_file, &
-      & write_numbers, write_text
+   use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, create_texts, &
+      & reserve_file, write_integers, write_numbers, write_text
    use camroller_hdf5_attribute, only : attach_scale, put_attribute
    use camroller_output_file, only : abandon_output, check_open, number_size, object_size, output_t, text_size
    use camroller_number_text, only : is_number
@@ -26,7 +26,7 @@ module camroller_output_facts
 contains
 
    !> Store the deck: the text as given, and each value that came of it.
-   subroutine write_deck(writer, text, keys, values, units, origins, error)
+   subroutine write_deck(writer, text, keys, values, is_whole, units, origins, is_used, error)
       !> The writer
       type(output_t), intent(inout) :: writer
       !> The deck as given
@@ -35,10 +35,14 @@ contains
       character(len=*), intent(in) :: keys(:)
       !> Their values: numbers as such, names plain or in quotes, lists separated by commas
       type(line_t), intent(in) :: values(:)
+      !> Are they whole numbers?
+      logical, intent(in) :: is_whole(:)
       !> Their units, blank where there is none
       character(len=*), intent(in) :: units(:)
       !> Where they come from: `given` or `default`
       character(len=*), intent(in) :: origins(:)
+      !> May they change anything in a case?
+      logical, intent(in) :: is_used(:)
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
@@ -55,9 +59,10 @@ contains
       if (.not. allocated(error)) call create_group(writer%deck, "values", group, error)
       do i = 1, size(keys)
          if (allocated(error)) exit
-         call write_value(group, trim(keys(i)), values(i)%text, dataset, error)
+         call write_value(group, trim(keys(i)), values(i)%text, is_whole(i), dataset, error)
          if (.not. allocated(error)) call put_attribute(dataset, "units", units(i), error)
          if (.not. allocated(error)) call put_attribute(dataset, "given", origins(i), error)
+         if (.not. allocated(error)) call put_attribute(dataset, "used", trim(merge("yes", "no ", is_used(i))), error)
          call close_object(dataset)
       end do
       call close_object(group)
@@ -268,23 +273,33 @@ contains
       if (allocated(error)) call abandon_output(writer)
    end subroutine finish_column
 
-   !> Write a value of the deck: a number where it reads as one, else a text without its quotes.
-   subroutine write_value(group, key, value, dataset, error)
+   !> Write a value of the deck: a whole number or a number where it reads as one, else a text without its quotes.
+   subroutine write_value(group, key, value, is_whole, dataset, error)
       !> Group of the values
       type(hdf5_object_t), intent(in) :: group
       !> The key
       character(len=*), intent(in) :: key
       !> Its value as text
       character(len=*), intent(in) :: value
+      !> Is it a whole number?
+      logical, intent(in) :: is_whole
       !> The open dataset
       type(hdf5_object_t), intent(out) :: dataset
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
       real(wp) :: number ! [unit of the key]
-      integer :: status
+      integer :: whole, status
 
       status = 1
+      if (is_whole) then
+         read (value, *, iostat=status) whole
+         if (status == 0) then
+            call create_integers(group, key, [integer ::], dataset, error)
+            if (.not. allocated(error)) call write_integers(dataset, whole, error)
+            return
+         end if
+      end if
       if (is_number(value)) read (value, *, iostat=status) number
       if (status == 0) then
          call create_numbers(group, key, [integer ::], [integer ::], 0, dataset, error)

@@ -2,7 +2,7 @@
 !>
 !> In: the table. Out: lines, one for each run of each case.
 module camroller_audit_page
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use camroller_kinds, only : wp
    use camroller_audit, only : judged, run_listed
    use camroller_number_text, only : fixed_text, scientific_text, integer_text, right_text
@@ -15,8 +15,6 @@ module camroller_audit_page
    character(len=*), parameter :: n = new_line("a")
    !> Longest line
    integer, parameter :: width = 132
-   !> Estimates from here on mean that nothing can be said [-]
-   real(wp), parameter :: unknown = 1.0e10_wp
    !> Part of a change that the accuracy of both runs may leave [-]
    real(wp), parameter :: accuracy_left = 3.0e-4_wp
 
@@ -80,8 +78,8 @@ contains
       text = ""
       if (.not. ieee_is_nan(change)) text(:10) = right_text(scientific_text(change, 2), 10)
       if (.not. ieee_is_nan(estimate)) then
-         if (estimate < unknown) text(11:) = right_text(scientific_text(estimate, 1), 10)
-         if (estimate >= unknown) text(11:) = "     large"
+         text(11:) = "     large"
+         if (ieee_is_finite(estimate)) text(11:) = right_text(scientific_text(estimate, 1), 10)
       end if
    end function pair
 

@@ -368,10 +368,10 @@ contains
       do i = 1, size(solution%mean)
          associate (measure => measures(i))
             if (i == largest_load_angle) then
-               call add(trim(measure%name), "degree", trim(measure%meaning), file_angle(solution%mean(i)))
+               call add(trim(measure%name), "degree", "of all cycles: "//trim(measure%meaning), file_angle(solution%mean(i)))
                cycle
             end if
-            call add(trim(measure%name), trim(measure%unit), trim(measure%meaning), solution%mean(i))
+            call add(trim(measure%name), trim(measure%unit), "mean over the cycles: "//trim(measure%meaning), solution%mean(i))
             call add(trim(measure%name)//"_deviation", trim(measure%unit), "standard deviation from cycle to cycle: "// &
                & trim(measure%meaning), solution%deviation(i))
             call add(trim(measure%name)//"_lowest", trim(measure%unit), "smallest of all cycles: "//trim(measure%meaning), &

@@ -321,12 +321,14 @@ contains
          & "smallest contact load with the valve off its seat, with friction; zero where contact is lost", "dynamics", event_load)
       call add_margin("base_circle", "contact load with the valve on its seat or about to leave or reach it", margins%base_circle)
       if (allocated(margins%pivot)) then
-         call add_margin("pivot", "force in the joint of finger and lash adjuster with the valve off its seat", margins%pivot)
-         call add(list, "adjuster_force", "N", &
-            & "force of the lash adjuster that makes the base circle load", "dynamics", margins%adjuster_force)
-         call add(list, "pump_up_speed", "rad s-1", "cam speed at which the force in the pivot's joint "// &
-            & "first falls to the adjuster's, which then follows; without friction, infinite if never", "dynamics", &
-            & margins%pump_up_speed)
+         call add_margin("pivot", "force in the joint of finger and pivot with the valve off its seat", margins%pivot)
+         if (margins%may_have_adjuster) then
+            call add(list, "adjuster_force", "N", &
+               & "force of the lash adjuster that makes the base circle load", "dynamics", margins%adjuster_force)
+            call add(list, "pump_up_speed", "rad s-1", "cam speed at which the force in the pivot's joint "// &
+               & "first falls to the adjuster's, which then follows; without friction, infinite if never", "dynamics", &
+               & margins%pump_up_speed)
+         end if
       end if
       if (allocated(margins%seat)) call add(list, "margin_seat", "N", "smallest force between the valve and its seat on the "// &
          & "base circle; negative where gas lifts it off", "gas_force", margins%seat%force)

@@ -3,7 +3,7 @@
 !>
 !> In: a case. Out: rows of `study_table_t`. A variant that fails is a row with a message and no numbers.
 module camroller_audit
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : infinite_if_huge, wp
    use camroller_error, only : error_t, raise
    use camroller_case, only : case_t, select_listed, select_names, select_needed
    use camroller_effect_choice, only : choose_effects
@@ -22,6 +22,8 @@ module camroller_audit
    !> Runs of an audit: everything; without an effect; without all; with one alone; with those that are needed
    character(len=*), parameter :: run_listed = "listed", run_without = "without", run_none = "none", run_alone = "alone", &
       & run_needed = "needed"
+   !> What an estimate is that says nothing
+   character(len=*), parameter :: no_bound = "infinite where there is no bound"
 
    !> What effects are judged by, as columns, in the order of `quantity_names`
    character(len=*), parameter, public :: judged(*) = [character(len=12) :: "mean_torque", "minimum_film", "slip"]
@@ -48,9 +50,12 @@ contains
          & "audit")
       call add_numbers(table, "change_slip", "1", "change of the slip relative to the magnitude of the value with all effects", &
          & "audit")
-      call add_numbers(table, "estimate_mean_torque", "1", "largest change of the mean torque expected before the run", "audit")
-      call add_numbers(table, "estimate_minimum_film", "1", "largest change of the smallest film expected before the run", "audit")
-      call add_numbers(table, "estimate_slip", "1", "largest change of the slip expected before the run", "audit")
+      call add_numbers(table, "estimate_mean_torque", "1", "largest change of the mean torque expected before the run; "// &
+         & no_bound, "audit")
+      call add_numbers(table, "estimate_minimum_film", "1", "largest change of the smallest film expected before the run; "// &
+         & no_bound, "audit")
+      call add_numbers(table, "estimate_slip", "1", "largest change of the slip expected before the run; "// &
+         & no_bound, "audit")
       call add_numbers(table, "is_left_out", "1", "1 where the choice of needed effects leaves it out", "audit")
       call add_numbers(table, "evaluations", "1", "evaluations of the roller equation", "audit")
       call add_numbers(table, "time", "s", "median processor time of a run", "audit")
@@ -158,7 +163,7 @@ contains
          call set_word(table, "effect", effect_names(decision%effect))
          call set_word(table, "reason", decision%reason)
          do i = 1, size(judged)
-            call set_number(table, "estimate_"//trim(judged(i)), decision%estimates(i))
+            call set_number(table, "estimate_"//trim(judged(i)), infinite_if_huge(decision%estimates(i)))
          end do
          call set_number(table, "is_left_out", merge(0.0_wp, 1.0_wp, decision%is_used))
       end if

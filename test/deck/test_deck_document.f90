@@ -104,8 +104,8 @@ contains
       end if
       if (allocated(raised)) call test_failed(error, raised%message)
       if (allocated(error)) return
-      call get_echo(deck, echo)
-      call get_echo(again, echo_again)
+      call get_echo(deck, echo, .true.)
+      call get_echo(again, echo_again, .true.)
       call check(error, size(echo_again%keys), size(echo%keys))
       if (allocated(error)) return
       call check(error, all(echo%keys == echo_again%keys) .and. &
@@ -123,11 +123,19 @@ contains
       call parse_sample(changed_deck("", "&film law = 'moes' /"), deck, raised)
       if (allocated(raised)) call test_failed(error, raised%message)
       if (allocated(error)) return
-      call get_echo(deck, echo)
+      call get_echo(deck, echo, .true.)
       call check(error, .not. any(index(echo%keys, "asperity.") == 1), "an effect that is not in the deck")
       if (allocated(error)) return
       i = findloc(echo%keys, "film.law", dim=1)
       call check(error, echo%values(i)%text//" "//trim(echo%origins(i))//" "//trim(echo%units(i)), "'moes' given 1")
+      if (allocated(error)) return
+      call check(error, echo%is_used(i) .and. .not. echo%is_whole(i), "a film's law is a name that is used")
+      if (allocated(error)) return
+      i = findloc(echo%keys, "numerics.step_deg", dim=1)
+      call check(error, .not. (echo%is_whole(i) .or. echo%is_used(i)), "a step of a method that has steps of its own")
+      if (allocated(error)) return
+      i = findloc(echo%keys, "numerics.max_cycles", dim=1)
+      call check(error, echo%is_whole(i) .and. echo%is_used(i), "a whole number that is used")
       if (allocated(error)) return
       i = findloc(echo%keys, "spring.seat_stiffness_N_m", dim=1)
       call check(error, echo%values(i)%text//" "//trim(echo%origins(i))//" "//trim(echo%units(i)), "1e7 default N/m")

@@ -61,8 +61,8 @@ contains
       path = scratch_path("all.h5")
       call open_output(writer, path, 3, options, raised)
       call write_deck(writer, "&case"//new_line("a")//"/", [character(len=12) :: "case.title", "masses.a_kg", "film.law"], &
-         & [line_t("'it''s'"), line_t("0.25"), line_t("'moes'")], [character(len=2) :: "", "kg", ""], &
-         & [character(len=7) :: "given", "default", "given"], raised)
+         & [line_t("'it''s'"), line_t("0.25"), line_t("'moes'")], spread(.false., 1, 3), [character(len=2) :: "", "kg", ""], &
+         & [character(len=7) :: "given", "default", "given"], spread(.true., 1, 3), raised)
       call write_sweep(writer, "operating_point.speed_rpm", "rev/min", [300.0_wp, 600.0_wp, 900.0_wp], raised)
       call write_sweep(writer, "film.law", "", [character(len=7) :: "moes", "martin", "another"], raised)
       call write_run(writer, [character(len=8) :: "program", "version"], [character(len=9) :: "camroller", "1"], "", raised)

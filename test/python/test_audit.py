@@ -43,6 +43,25 @@ def test_an_audit_has_a_run_without_each_effect(camroller, folder):
         assert left_out["without", "asperity"] == 1 and left_out["without", "needle_bearing"] == 0
 
 
+def test_an_estimate_without_a_bound_is_infinite(camroller, tmp_path):
+    """In the table of an audit and in `/effects` of a run, where it was the largest number that there is."""
+    text = (ROOT / "decks/sliding_joints.nml").read_text()
+    (tmp_path / "deck.nml").write_text(text[:text.index("&sweep")])
+    for command in (["audit", "deck.nml", "--repeats", "1", "-o", "audit.h5"],
+                    ["run", "deck.nml", "--set", "effects.select=needed", "-o", "run.h5"]):
+        result = run(camroller, *command, folder=tmp_path)
+        assert result.returncode == 0, result.stderr
+    with h5py.File(tmp_path / "audit.h5") as audit, h5py.File(tmp_path / "run.h5") as whole:
+        columns = [data for name, data in audit["study/audit"].items() if name.startswith("estimate_")]
+        scalars = [data for name, data in whole["effects"].items() if "_estimate_" in name]
+        assert len(columns) == 3 and len(scalars) > 3
+        for data in (*columns, *scalars):
+            assert "infinite where there is no bound" in data.attrs["long_name"], data.name
+            assert numpy.nanmax(data[()][~numpy.isinf(data[()])], initial=0.0) < 10.0, data.name
+        for found in (columns, scalars):
+            assert any(numpy.isposinf(data[()]).any() for data in found)
+
+
 def test_an_audit_ends_with_the_code_of_a_case_without_a_result(camroller, folder):
     result = run(camroller, "audit", "one.nml", "--repeats", "1", "--quiet", "-o", "lost.h5", "--set", "case.contact_policy=stop",
                  "--set", "operating_point.speed_rpm=3000", folder=folder)

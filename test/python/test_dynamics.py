@@ -518,7 +518,7 @@ def test_extremes_are_those_of_all_turns(tmp_path, camroller):
 
 @pytest.mark.once
 def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, camroller):
-    """The summary is their mean, spread and range; a case that repeats each turn has none, one without a period has 40."""
+    """The summary is their mean, spread and range, and says so, and the angle of the turn with the largest load; a case that repeats each turn has none, one without a period has 40."""
     done = subprocess.run([camroller, "sweep", ADJUSTER, "-o", tmp_path / "turns.h5", "--quiet", "--set", "sweep.values_1=300,1900,2200",
                            "--set", "numerics.tolerance=1e-3"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -531,8 +531,13 @@ def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, 
                 continue
             assert data.dims[1][0].name == "/turns/turn" and data.attrs["units"] == file[f"summary/{name}"].attrs["units"]
             assert np.isnan(data[0]).all() and np.isfinite(data[2]).all() and np.isfinite(data[1]).sum() == counts[1]
+            words = file[f"summary/{name}"].attrs["long_name"]
             if name.endswith("_angle"):
+                for case in (1, 2):  # angles have no mean
+                    assert file[f"summary/{name}"][case] == data[case, np.nanargmax(file["turns/dynamic_load_max"][case])]
+                assert words == "of all cycles: " + data.attrs["long_name"]
                 continue
+            assert words == "mean over the cycles: " + data.attrs["long_name"]
             for case in (1, 2):
                 values = data[case][np.isfinite(data[case])]
                 size = np.abs(values).max()
@@ -543,6 +548,19 @@ def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, 
         file["turns/dynamic_load_max"][2, 7] *= 1 + 1e-15
     done = subprocess.run([camroller, "rerun", tmp_path / "turns.h5"], capture_output=True, text=True)
     assert done.returncode != 0 and re.findall(r"(\S+): in 1 case", done.stderr) == ["turns/dynamic_load_max"], done.stderr
+
+
+@pytest.mark.parametrize("deck, there", [(DECK, False), (ADJUSTER, True), (RIGID, True)], ids=["fixed pivot", "adjuster", "rigid"])
+def test_a_fixed_pivot_has_no_speed_at_which_an_adjuster_pumps_up(deck, there, tmp_path, camroller):
+    """A rigid train does not tell whether it has one; the joint unloads with both."""
+    first = deck.read_text().partition("&sweep")[0]
+    (tmp_path / "deck.nml").write_text(first)
+    told = done(camroller, "check", "deck.nml", folder=tmp_path).stdout
+    assert ("a lash adjuster pumps up above" in told) == there
+    done(camroller, "run", "deck.nml", "-o", "run.h5", "--quiet", "--set", "numerics.tolerance=1e-3", folder=tmp_path)
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert [name in file["summary"] for name in ("adjuster_force", "pump_up_speed")] == [there, there]
+        assert "margin_pivot" in file["summary"] and file["summary/margin_pivot_speed"].attrs["units"] == "rad s-1"
 
 
 def test_energy_lost_in_the_spring_is_that_of_its_modes(tmp_path, camroller):

@@ -98,6 +98,11 @@ def test_deck_and_run_are_kept(result_file):
         values = file["deck/values"]
         assert values["output.angle_step_deg"][()] == ANGLE_STEP
         assert {dataset.attrs["given"] for dataset in values.values()} == {"given", "default"}
+        # the needles are plain ones, the method has steps of its own, the sweep is a grid of lists
+        idle = {key for key, dataset in values.items() if dataset.attrs["used"] == "no"}
+        assert {"needle_bearing.pin_law", "numerics.step_deg", "sweep.seed", "sweep.scale_1"} < idle
+        assert {dataset.attrs["used"] for dataset in values.values()} == {"yes", "no"} and "film.law" not in idle
+        assert values["numerics.max_cycles"].dtype.kind == "i" and values["spring.stiffness_N_m"].dtype.kind == "f"
         for name in ("program", "version", "commit", "compiler", "options", "date", "command"):
             assert file["run"].attrs[name], name
         assert sorted(file["sweep"]) == ["operating_point.oil_temperature_degC", "operating_point.speed_rpm"]
@@ -111,6 +116,7 @@ def test_xarray_opens_it_as_netcdf(result_file):
         assert series["contact_load"].dims == ("case", "cam_angle")
         assert series["contact_load"].attrs["units"] == "N"
         assert float(series["contact_load"].sel(cam_angle=180.0)[0]) > 0
+        assert set(series.coords) == {"cam_angle"}, "the scale of the cases is in the root"
     with xarray.open_dataset(result_file, engine="h5netcdf", group="summary") as summary:
         assert dict(summary.sizes) == {"case": CASES}
     with xarray.open_datatree(result_file, engine="h5netcdf") as tree:
@@ -252,6 +258,7 @@ def test_page_of_the_result_file_has_every_dataset_with_its_axes(camroller, tmp_
                 ("run", ROOT / "decks/tabulated_lift.nml", "--set", "mechanism.contact_width_mm=0.2"),
                 ("run", profiles, "--set", "sweep.values_1=900", "--set", "sweep.values_2=25", "--set", "output.angle_step_deg=10"),
                 ("run", ROOT / "decks/four_cylinder.nml", "--point", "speed_rpm=2000"),
+                ("run", DECK, "--no-sweep", "--set", "effects.select=needed"),
                 ("run", DECK, "--set", "sweep.values_1=300,3000", "--set", "sweep.values_2=95", "--set", "case.contact_policy=stop")]
     rows = list(rows_of_page())
     unused = {path for path, _ in rows}
@@ -265,6 +272,7 @@ def test_page_of_the_result_file_has_every_dataset_with_its_axes(camroller, tmp_
                     assert axes is None or axes_of(data) == axes, name
                     unused.discard(path)
                     if path.endswith("/*") and axes:
+                        assert ("source" in data.attrs) == (path not in ("/sweep/*", "/measured/*")), name
                         assert {"units", "long_name"} <= set(data.attrs), name
                         assert not data.attrs["long_name"].startswith("its"), name
     assert not unused

@@ -434,6 +434,16 @@ def test_measured_values_go_with_their_cases_into_result_and_export(camroller, t
     assert again.returncode != 0 and "is not a result of this sweep" in again.stderr
 
 
+@pytest.mark.parametrize("heading, is_told", [("measured.drive_N_mm", True), ("measured.oil_degC", True), ("measured.run", False),
+                                              ("measured.drive_N_mm [N mm]", False), ("measured.drive_N_mm [1]", False)])
+def test_a_unit_in_the_name_of_a_measured_column_is_told_to_be_none(camroller, tmp_path, heading, is_told):
+    (tmp_path / "cases.txt").write_text(f'operating_point.speed_rpm "{heading}"\n600 0.41\n')
+    told = done(camroller, "check", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.txt'"), folder=tmp_path).stderr
+    words = f"remark: {heading} counts as without a unit, whatever its name ends with: a unit stands in brackets, as in 'measured.torque [N m]', " \
+        "and [1] for none"
+    assert (words in told.splitlines()) == is_told and ("counts as without" in told) == is_told
+
+
 def test_long_names_and_units_of_measured_values_are_in_the_result(camroller, tmp_path):
     name = 64 * "x"
     (tmp_path / "cases.txt").write_text(MEASURED.replace("torque [N m]", name + " [kg m-1 s-2 K-1]"))

@@ -74,7 +74,7 @@ contains
          call test_failed(error, failure%message)
          return
       end if
-      call get_echo(deck, echo)
+      call get_echo(deck, echo, .true.)
       count = 0
       do i = 1, size(echo%keys)
          point = index(echo%keys(i), ".")
