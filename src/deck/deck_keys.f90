@@ -409,14 +409,14 @@ contains
          & "places of the cams, between the first and the last bearing", &
          & example="30")
       call add_numbers(schema, "cam_phases_deg", from_to(-360.0_wp, 360.0_wp), &
-         & "angle by which each cam's event follows the first cam's; 0 for every cam where not given", &
+         & "angle by which each cam's event follows the first cam's, so that the first is 0; 0 for every cam where not given", &
          & is_optional=.true.)
       call add_integers(schema, "cam_lobes", from_to(1.0_wp, 2.0_wp), &
          & "lobe shape of each cam: 1 is &lift, 2 is &second_lift; 1 for every cam where not given", is_optional=.true.)
       call add_integers(schema, "cam_cylinders", one_or_more, "cylinder of each cam", is_optional=.true.)
       call add_numbers(schema, "follower_angles_deg", from_to(-360.0_wp, 360.0_wp), &
-         & "angle of each cam's follower about the shaft, from the first one's, positive the way a finger turns as it opens "// &
-         & "its valve; 0 for every cam where not given", &
+         & "angle of each cam's follower about the shaft, from the first one's, which is 0; positive the way a finger turns as "// &
+         & "it opens its valve; 0 for every cam where not given", &
          & is_optional=.true.)
       call add_logical(schema, "bearing_series", standard%by_bearing, &
          & "are there series of each bearing: load, eccentricity, smallest film, friction?")

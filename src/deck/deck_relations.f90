@@ -389,9 +389,9 @@ contains
 
       if (.not. is_known(settings, group, "cam_positions_mm")) return
       call take(settings, group, "cam_positions_mm", cams)
-      call check_length(settings, "cam_phases_deg", size(cams), mistakes)
-      call check_length(settings, "cam_lobes", size(cams), mistakes)
-      call check_length(settings, "follower_angles_deg", size(cams), mistakes)
+      call check_cams(settings, "cam_phases_deg", size(cams), mistakes)
+      call check_cams(settings, "cam_lobes", size(cams), mistakes)
+      call check_cams(settings, "follower_angles_deg", size(cams), mistakes)
       if (.not. is_known(settings, group, "bearing_positions_mm")) return
       call take(settings, group, "bearing_positions_mm", bearings)
       n = size(bearings)
@@ -426,8 +426,8 @@ contains
       call complain(mistakes, settings, "cam_bearings", "width_mm", width_advice)
    end subroutine bearings_suit_their_law
 
-   !> One entry for every cam.
-   subroutine check_length(settings, key, cams, mistakes)
+   !> One entry for each cam; angles count from the first one.
+   subroutine check_cams(settings, key, cams, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Name of the list
@@ -437,8 +437,9 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      !> The list [rad]
+      !> The list [rad], angle of the first cam that is none [rad]
       real(wp), allocatable :: numbers(:)
+      real(wp), parameter :: rounding = 1.0e-12_wp
       integer, allocatable :: integers(:)
       integer :: length
 
@@ -450,11 +451,14 @@ contains
          call take(settings, "cam_bearings", key, numbers)
          length = size(numbers)
       end if
-      if (length == cams) return
-      call complain(mistakes, settings, "cam_bearings", key, "'"//key//"' has "//integer_text(length)// &
-         & " entries for "// &
-         & integer_text(cams)//" cams of 'cam_positions_mm'")
-   end subroutine check_length
+      if (length /= cams) then
+         call complain(mistakes, settings, "cam_bearings", key, "'"//key//"' has "//integer_text(length)//" entries for "// &
+            & integer_text(cams)//" cams of 'cam_positions_mm'")
+      else if (allocated(numbers)) then
+         if (abs(sin(0.5_wp*numbers(1))) > rounding) call complain(mistakes, settings, "cam_bearings", key, &
+            & "'"//key//"' begins with 0, since its angles count from the first cam's")
+      end if
+   end subroutine check_cams
 
    !> A tolerance takes the place of an accuracy.
    subroutine accuracy_or_tolerance(settings, mistakes)

@@ -221,6 +221,15 @@ def test_heat_of_a_bearing_is_refused_where_its_side_flow_is_not_known(camroller
         assert done.returncode == 3 and words in done.stderr and done.stderr.count("diameter") == 1, done.stderr
 
 
+@pytest.mark.parametrize("key", ["cam_phases_deg", "follower_angles_deg"])
+def test_angles_that_do_not_begin_with_the_first_cam_are_refused(camroller, key):
+    """Nothing else says what they would count from; one of 35 degrees turned the shaft against the pull of its belt."""
+    found = subprocess.run([camroller, "check", ROOT / "decks/three_cam_head.nml", "--set", f"cam_bearings.{key}=35, 120, 240"],
+                           capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60, check=False)
+    assert found.returncode == 3
+    assert f"'{key}' begins with 0, since its angles count from the first cam's" in found.stderr
+
+
 def test_a_remark_names_bearing_and_camshaft_of_a_thin_film(camroller, tmp_path):
     values = ("lubricant.viscosity_at_40_degC_mm2_s=8", "lubricant.viscosity_at_100_degC_mm2_s=2", "cam_bearings.bearing_series=.true.",
               "operating_point.speed_rpm=600", "output.angle_step_deg=0.5")
