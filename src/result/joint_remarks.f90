@@ -47,8 +47,8 @@ contains
                & part_left(curve)*coefficients(i), remarks)
          end associate
       end do
-      if (allocated(joints%seal)) call judge_seal(joints, viscosity, statistics%joints%drag_power/(speed*sum(statistics%torques, &
-         & mask=is_loss)), remarks)
+      if (allocated(joints%seal)) call judge_seal(joints, viscosity, statistics%joints%drag_power, &
+         & speed*sum(statistics%torques, mask=is_loss), remarks)
    end subroutine judge_joints
 
    !> Say that Stribeck's curve without a viscous part has left nothing of a joint's friction.
@@ -67,25 +67,25 @@ contains
    end subroutine tell_spent
 
    !> Say that a notable part of the friction is the drag of a seal in oil far more viscous than the one that it is given for.
-   subroutine judge_seal(joints, viscosity, part, remarks)
+   subroutine judge_seal(joints, viscosity, power, losses, remarks)
       !> The joints, with a seal
       type(joints_t), intent(in) :: joints
       !> Viscosity of the oil [Pa s]
       real(wp), intent(in) :: viscosity
-      !> Part of the follower's friction that the drag takes [-]
-      real(wp), intent(in) :: part
+      !> Mean power of the drag, of all friction of the follower [W]
+      real(wp), intent(in) :: power, losses
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       associate (seal => joints%seal)
          if (viscosity < far_viscosity*seal%reference_viscosity .or. .not. (seal%reference_viscosity > 0.0_wp .and. &
-            & part > notable_part)) return
+            & power > notable_part*losses)) return
          associate (ratio => viscosity/seal%reference_viscosity)
-            call add_remark(remarks, thick_seal_oil, "the viscous drag of the stem seal takes "//number_text(100.0_wp*part, 2)// &
-               & " % of the follower's friction: it goes with the viscosity, "//number_text(ratio, 3)//" times "// &
-               & "stem_seal.reference_viscosity_Pa_s here, without limit, and is "//number_text(seal%drag, 3)// &
-               & " N s/m; a lip lifts off on its film, and a drag measured in oil as cold, or stem_seal.drag_follows = "// &
-               & "'constant', is nearer to it", ratio)
+            call add_remark(remarks, thick_seal_oil, "the viscous drag of the stem seal takes "// &
+               & number_text(100.0_wp*power/losses, 2)//" % of the follower's friction: it goes with the viscosity, "// &
+               & number_text(ratio, 3)//" times stem_seal.reference_viscosity_Pa_s here, without limit, and is "// &
+               & number_text(seal%drag, 3)//" N s/m; a lip lifts off on its film, and a drag measured in oil as cold, or "// &
+               & "stem_seal.drag_follows = 'constant', is nearer to it", ratio)
          end associate
       end associate
    end subroutine judge_seal
