@@ -108,7 +108,7 @@ contains
       if (steps <= most_steps) return
       call raise(error, kind_convergence, "method '"//trim(method)//"' is explicit, and its steps are stable over a few times "// &
          & "what the slip decays in, down to "//number_text(1.0_wp/(maxval(decay_rates)*degree), 2)//" deg: "// &
-         & "the turn takes "//number_text(steps, 2)//" steps at least, with "//integer_text(most_steps)//" allowed; "// &
+         & "the turn takes more than "//number_text(steps, 3)//" steps, with "//integer_text(most_steps)//" allowed; "// &
          & "take method 'automatic'")
    end subroutine check_steps
 

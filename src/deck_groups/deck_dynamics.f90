@@ -30,7 +30,8 @@ contains
 
       call add_group(schema, "dynamics", group_effect, "a train that bends, leaves contact and returns")
       call add_number(schema, "finger_stiffness_N_m", positive, "stiffness of the finger in bending, with pin and shaft, at "// &
-         & "the roller", default=standard%finger_stiffness)
+         & "the roller; the default, as those of pad and seat, is of a train with mechanism.pivot_to_roller_mm = 20.8, and "// &
+         & "stiffness goes with the size", default=standard%finger_stiffness)
       call add_number(schema, "contact_damping_s_m", not_negative, "damping of cam and roller: force over the elastic one less "// &
          & "1, per speed of approach", default=standard%contact_damping)
       call add_number(schema, "pad_stiffness_N_m", positive, "stiffness of the finger's pad and the valve's stem", &

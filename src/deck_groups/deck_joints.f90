@@ -81,7 +81,7 @@ contains
       call add_number(schema, "decay_speed_m_s", positive, "sliding speed at which that has fallen to 1/e, at reference "// &
          & "viscosity and load", is_optional=.true.)
       call add_number(schema, "viscous_part_s_m", not_negative, "viscous part of the coefficient per sliding speed, at "// &
-         & "reference viscosity and load", default=standard%viscous_part)
+         & "reference viscosity and load; 0 leaves the friction of the film out", default=standard%viscous_part)
       call add_number(schema, "reference_viscosity_Pa_s", positive, "reference viscosity", is_optional=.true.)
       call add_number(schema, "reference_load_N", positive, "reference force", is_optional=.true.)
       call add_number(schema, "reversal_speed_m_s", not_negative, &

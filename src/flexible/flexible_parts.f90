@@ -9,7 +9,7 @@ module camroller_flexible_parts
    implicit none
    private
 
-   public :: dynamics_t, flexible_t, set_contacts, set_oil
+   public :: dynamics_t, flexible_t, set_contacts, set_oil, usual_dynamics
    public :: damper_count, dampers_without_adjuster, damper_series, damper_meanings
 
    !> Where a train loses energy to damping; the last four are of the adjuster: names of the series and what each is of
@@ -22,8 +22,8 @@ module camroller_flexible_parts
       & "power lost by the oil that leaks along the plunger", "power lost by the oil that passes the check valve"]
    integer, parameter :: damper_count = size(damper_series), dampers_without_adjuster = 4
 
-   !> Stiffness and damping of the train's contacts, as a deck has them. Damping stands for a force over the elastic one, per speed
-   !> of approach.
+   !> Stiffness and damping of the train's contacts, as a deck has them; what a deck does not give is that of the reference train,
+   !> whose finger is `usual_arm` long. Damping stands for a force over the elastic one, per speed of approach.
    type :: dynamics_t
       !> Stiffness of the finger in bending, with pin and shaft, at the roller [N/m]
       real(wp) :: finger_stiffness = 5.0e7_wp
@@ -75,7 +75,27 @@ module camroller_flexible_parts
       type(adjuster_t), allocatable :: adjuster
    end type flexible_t
 
+   !> Distance from pivot to roller of the reference train [m]
+   real(wp), parameter :: usual_arm = 20.8e-3_wp
+
 contains
+
+   !> Stiffness and damping that a train of some size usually has: bodies of one shape and material are as much stiffer as they are
+   !> larger, since the force of one strain goes with the square of the size and the deflection with the size. Damping per speed of
+   !> approach stays, as do stresses and speeds of an engine of another size.
+   pure function usual_dynamics(arm) result(usual)
+      !> Distance from the finger's pivot to the roller's centre, which stands for the size [m]
+      real(wp), intent(in) :: arm
+      !> Stiffness and damping
+      type(dynamics_t) :: usual
+
+      real(wp) :: scale ! [-]
+
+      scale = arm/usual_arm
+      usual%finger_stiffness = scale*usual%finger_stiffness
+      usual%pad_stiffness = scale*usual%pad_stiffness
+      usual%seat_stiffness = scale*usual%seat_stiffness
+   end function usual_dynamics
 
    !> Constants of the contacts.
    pure subroutine set_contacts(flexible, dynamics, modulus, length)

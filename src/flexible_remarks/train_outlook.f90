@@ -3,7 +3,7 @@
 !> In: a model, rigid or flexible. Out: its lowest natural frequency with the valve at full lift, the largest load over that of the
 !> rigid train, the force of the spring's surge. The train is linear there, with a massless spring and the check valve shut; the
 !> rigid load drives its lowest mode, the rigid lift the modes of the spring, each as an oscillator with exact steps. A rigid train
-!> takes stiffness and damping of the usual size. Sources: Koster, Vibrations of Cam Mechanisms (1974), for the
+!> takes stiffness and damping that are usual for its size. Sources: Koster, Vibrations of Cam Mechanisms (1974), for the
 !> residual vibration behind a cam; Wahl, Mechanical Springs (1963), for surge.
 module camroller_train_outlook
    use camroller_kinds, only : wp, pi, two_pi
@@ -11,7 +11,7 @@ module camroller_train_outlook
    use camroller_contact_compliance, only : series_approach, series_load
    use camroller_dynamics, only : evaluate_moments, moments_t
    use camroller_error, only : error_t
-   use camroller_flexible_parts, only : dynamics_t, flexible_t, set_contacts
+   use camroller_flexible_parts, only : flexible_t, set_contacts, usual_dynamics
    use camroller_flexible_setup, only : find_rest, rest_t
    use camroller_kinematics, only : position_t
    use camroller_lapack, only : dsygv
@@ -182,7 +182,7 @@ contains
 
    end function gas_share
 
-   !> The model's train where it is flexible, or one with a fixed pivot and contacts of usual size.
+   !> The model's train where it is flexible, or one with a fixed pivot and contacts usual for its size.
    function train_of(model) result(flexible)
       !> The model, with a pivot
       type(model_t), intent(in) :: model
@@ -193,8 +193,8 @@ contains
          flexible = model%flexible
          return
       end if
-      call set_contacts(flexible, dynamics_t(), model%modulus, nose_length(model%contact_width, model%linkage, model%lift_law, &
-         & model%train, model%axial))
+      call set_contacts(flexible, usual_dynamics(model%linkage%a), model%modulus, nose_length(model%contact_width, model%linkage, &
+         & model%lift_law, model%train, model%axial))
       flexible%axis = exp(cmplx(0.0_wp, -model%pivot%axis_angle, wp))
       flexible%tilt_cosine = model%pivot%tilt_cosine
    end function train_of

@@ -5,6 +5,7 @@ module camroller_unit_guess
    use camroller_kinds, only : wp, degree, celsius_zero
    use camroller_number_text, only : number_text
    use camroller_deck_schema, only : key_t, range_t
+   use camroller_units, only : unit_name_length
    implicit none
    private
 
@@ -12,12 +13,25 @@ module camroller_unit_guess
 
    !> Digits of numbers in sentences
    integer, parameter :: digits = 6
-   !> Powers of ten that a slip of units makes; nearer ones first
-   integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
+   !> Powers of ten by which a number in another unit of common use has to be multiplied for the unit of a key; zero where there
+   !> are no more. A unit that is not here is taken for no other one: nobody writes millinewtons or kilotonnes
+   type :: slip_t
+      !> The unit, by the last words of a key
+      character(len=unit_name_length) :: suffix = ""
+      !> Powers of ten, more common ones first
+      integer :: powers(3) = 0
+   end type slip_t
+   type(slip_t), parameter :: slips(*) = [ &
+      slip_t("m", [-3, -6, 0]), slip_t("mm", [3, -3, 0]), slip_t("um", [3, 6, -3]), slip_t("nm", [3, 6, 9]), &
+      slip_t("mm2", [6, 0, 0]), slip_t("cm3", [3, 6, -3]), slip_t("mrad", [3, 0, 0]), &
+      slip_t("m_s", [-3, 0, 0]), slip_t("nm_s", [3, 6, 9]), slip_t("s_m", [3, 0, 0]), &
+      slip_t("kg", [-3, -6, 0]), slip_t("kg_m2", [-6, -9, 0]), slip_t("kg_m3", [3, 0, 0]), &
+      slip_t("N", [3, 0, 0]), slip_t("N_m", [3, 6, 0]), slip_t("N_s_m", [3, 0, 0]), slip_t("Nm", [-3, 0, 0]), &
+      slip_t("Pa", [3, 6, 9]), slip_t("kPa", [3, -3, 0]), slip_t("MPa", [3, -3, -6]), slip_t("GPa", [-3, -6, -9]), &
+      slip_t("per_GPa", [3, 9, 0]), slip_t("Pa_s", [-3, 0, 0]), slip_t("mPa_s", [3, 0, 0]), slip_t("mm2_s", [6, 0, 0]), &
+      slip_t("mm3_N_m", [3, 9, 0]), slip_t("W_m_K", [-3, 0, 0]), slip_t("J_kg_K", [3, 0, 0]), slip_t("kJ_mol", [-3, 0, 0])]
    !> Power of ten between a number without a unit and its percentage
    integer, parameter :: percent = -2
-   !> Units that nobody takes for a thousand of another
-   character(len=*), parameter :: of_one_size(*) = [character(len=4) :: "rpm", "deg", "degC"]
    !> Kinematic viscosities that a data sheet may give [mm^2/s]
    type(range_t), parameter :: sheet_range = range_t(2.0_wp, 500.0_wp)
 
@@ -49,7 +63,7 @@ contains
 
       ! Beyond it the number in another unit could overflow [unit of the key]
       real(wp), parameter :: largest = 1.0e-20_wp*huge(1.0_wp)
-      integer :: i
+      integer :: place, i
 
       words = ""
       if (.not. key%has_usual .or. .not. abs(number) > 0.0_wp .or. abs(number) > largest) return
@@ -60,15 +74,16 @@ contains
       end if
       if (key%unit%suffix == "degC") call ask_value(key, number - celsius_zero, number_text(number, digits)//" K", words)
       if (key%unit%suffix == "deg") call ask_value(key, number/degree, number_text(number, digits)//" rad", words)
-      if (any(key%unit%suffix == of_one_size)) return
       if (key%unit%suffix == "") then
          ! Nobody writes a part of one in thousandths. Where anything down to zero is usual, a hundredth of a part tells nothing
          if (abs(number) >= 1.0_wp .or. key%usual%smallest > 0.0_wp) call ask_value(key, number*10.0_wp**percent, &
             & number_text(number, digits)//" %", words)
          return
       end if
-      do i = 1, size(slips)
-         call ask_value(key, number*10.0_wp**slips(i), "", words)
+      place = findloc(slips%suffix, key%unit%suffix, dim=1)
+      if (place == 0) return
+      do i = 1, count(slips(place)%powers /= 0)
+         call ask_value(key, number*10.0_wp**slips(place)%powers(i), "", words)
       end do
    end subroutine say_meant
 

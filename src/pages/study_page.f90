@@ -4,7 +4,7 @@
 module camroller_study_page
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp
-   use camroller_number_text, only : fixed_text, integer_text, number_text, right_text, scientific_text
+   use camroller_number_text, only : counted, fixed_text, integer_text, number_text, right_text, scientific_text
    use camroller_study, only : dial_reference
    use camroller_study_table, only : study_table_t, word_length, column_of, words_of
    implicit none
@@ -50,8 +50,30 @@ contains
          call write_line(table, row, is_same, line)
          text = text//n//line
       end do
+      call add_notes(table, text)
       text = text//n
    end subroutine write_study_page
+
+   !> Add lines on references that are not by the usual methods, one for all cases alike.
+   subroutine add_notes(table, text)
+      !> Table of a study
+      type(study_table_t), intent(in) :: table
+      !> The page; out: with the lines
+      character(len=:), allocatable, intent(inout) :: text
+
+      character(len=word_length) :: messages(table%rows)
+      logical :: is_noted(table%rows)
+      integer :: row, cases
+
+      messages = words_of(table, "message")
+      is_noted = words_of(table, "dial") == dial_reference .and. column_of(table, "status") <= 0.0_wp .and. messages /= ""
+      do row = 1, table%rows
+         if (.not. is_noted(row)) cycle
+         cases = count(is_noted .and. messages == messages(row))
+         text = text//n//trim(messages(row))//": "//counted(cases, "case")
+         is_noted = is_noted .and. messages /= messages(row)
+      end do
+   end subroutine add_notes
 
    !> One line: all rows of one way with one setting.
    subroutine write_line(table, row, is_same, text)

@@ -19,6 +19,7 @@ module camroller_case_result
    use camroller_lobe_curve, only : cam_values, curve_values
    use camroller_series_extremes, only : series_extremes_t, find_extremes, find_lobe_extremes
    use camroller_heat_remarks, only : judge_heat
+   use camroller_joint_remarks, only : judge_joints
    use camroller_margins, only : margins_t, find_margins
    use camroller_oil_checks, only : find_far_points, find_far_table, judge_estimate, rises_t
    use camroller_remarks, only : add_remark, cold_estimate, far_table, far_temperature, remark_t
@@ -248,6 +249,8 @@ contains
          call judge_pressure(models(lobe), result%summary_values(pressure), result%remarks)
          pin = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"pin_film_min")
          if (pin > 0) call judge_pin(case%needle_bearing%film%roughness, result%summary_values(pin), result%remarks)
+         if (allocated(models(lobe)%joints)) call judge_joints(models(lobe)%joints, models(lobe)%oil%viscosity, &
+            & models(lobe)%speed, statistics(lobe), result%remarks)
          call name_lobe(result%remarks, first, merge(lobe, 0, size(models) > 1))
       end do
    end subroutine judge_extremes

@@ -453,7 +453,7 @@ contains
       call find_outlook(model, outlook)
       if (.not. outlook%is_known) return
       call append_quantity(list, prefix//"train_frequency", "Hz", "estimate: lowest natural frequency of the train with the "// &
-         & "valve at full lift, with stiffness of usual size where there is no &dynamics", "dynamics", &
+         & "valve at full lift, with stiffness usual for its size where there is no &dynamics", "dynamics", &
          & outlook%frequencies(1)/two_pi, scope)
       call append_quantity(list, prefix//"load_factor", "1", "estimate: largest contact load of a train that vibrates at that "// &
          & "frequency over the largest of a rigid one, without friction of the joints and impacts that take up lash", "dynamics", &

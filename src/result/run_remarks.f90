@@ -13,6 +13,7 @@ module camroller_run_remarks
    use camroller_case, only : case_t, numerics_t
    use camroller_number_text, only : fixed_text, integer_text, number_text
    use camroller_catalogue, only : lobe_prefix
+   use camroller_flexible_parts, only : usual_dynamics
    use camroller_remarks, only : add_remark, creeping_roller, foreign_speed, held_coefficient, idle_roller, loose_tolerance, &
       & missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, shaken_train
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
@@ -69,7 +70,7 @@ contains
       associate (length => case%mechanism%contact_width)
          call judge_slices(coupled_width(case%roller_profile, length), length, result)
       end associate
-      call judge_stiffness(result, error)
+      call judge_stiffness(case%mechanism%pivot_to_roller, result, error)
       if (.not. allocated(error)) call judge_creep(case%asperity, allocated(case%wear), result, error)
       if (.not. allocated(case%boundary_law) .or. allocated(error)) return
       call judge_speed(case%boundary_law, result, error)
@@ -150,7 +151,9 @@ contains
    end subroutine judge_slices
 
    !> Say that a train which is computed as a rigid one would vibrate.
-   subroutine judge_stiffness(result, error)
+   subroutine judge_stiffness(arm, result, error)
+      !> Distance from the finger's pivot to the roller's centre [m]
+      real(wp), intent(in) :: arm
       !> The result; gets the remark
       type(result_t), intent(inout) :: result
       !> Internal error
@@ -169,9 +172,13 @@ contains
          call take_scalar(result, prefix//"train_frequency", frequency, error)
          if (allocated(error)) return
          if (.not. factor > shaken_factor) cycle
-         call add_named(result, lobe, shaken_train, "the train is computed as a rigid one; with stiffness of usual size its "// &
-            & "natural frequency is about "//number_text(frequency, 2)//" Hz, and its largest contact load an estimated "// &
-            & number_text(factor, 3)//" times that of the rigid one; &dynamics computes it", factor)
+         associate (usual => usual_dynamics(arm))
+            call add_named(result, lobe, shaken_train, "the train is computed as a rigid one; with stiffness usual for its "// &
+               & "size, "//number_text(usual%finger_stiffness, 2)//" N/m of the finger and "// &
+               & number_text(usual%pad_stiffness, 2)//" of its pad, its natural frequency is about "// &
+               & number_text(frequency, 2)//" Hz, and its largest contact load an estimated "//number_text(factor, 3)// &
+               & " times that of the rigid one; &dynamics computes it", factor)
+         end associate
       end do
    end subroutine judge_stiffness
 
@@ -208,7 +215,7 @@ contains
       end do
    end subroutine judge_creep
 
-   !> Say that the roller slides all round more slowly than a law of boundary friction has values for.
+   !> Say that the roller slides all round so slowly that a law of boundary friction does not depend on the speed.
    subroutine judge_speed(law, result, error)
       !> The law
       type(boundary_law_t), intent(in) :: law
@@ -223,10 +230,10 @@ contains
       integer :: lobe
 
       lowest = law%lowest_speed
-      words = "lowest_speed_m_s, below which the logarithm levels off"
+      words = "boundary_law.lowest_speed_m_s"
       if (law%law == boundary_law_names(boundary_table)) then
          lowest = law%speed_points(1)
-         words = "first speed of the table, whose coefficient holds below it"
+         words = "the first speed of the table of &boundary_law"
       end if
       do lobe = 1, lobe_count(result)
          prefix = trim(lobe_prefix(lobe))
@@ -236,8 +243,9 @@ contains
          if (allocated(error)) return
          if (maxval(abs(speeds)) >= lowest) cycle
          call add_named(result, lobe, foreign_speed, "the roller slides by "//number_text(maxval(abs(speeds)), 3)// &
-            & " m/s at most, all round below "//number_text(lowest, 3)//" m/s, the "//words//": &boundary_law says nothing "// &
-            & "of this case", lowest/max(maxval(abs(speeds)), tiny(lowest)))
+            & " m/s at most, all round below "//words//" ("//number_text(lowest, 3)//"): the boundary coefficient does not "// &
+            & "depend on the speed there, it is that of the law at its lowest speed", &
+            & lowest/max(maxval(abs(speeds)), tiny(lowest)))
       end do
    end subroutine judge_speed
 

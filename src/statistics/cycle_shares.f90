@@ -1,5 +1,5 @@
-!> Fractions of a cycle in which something holds of a follower's contact that a remark tells of: lost contact, laws outside their
-!> range, films, shear and loads that are those of other contacts.
+!> Fractions of a cycle in which something holds of a follower that a remark tells of: lost contact, laws outside their range,
+!> films, shear and loads that are those of other contacts, joints without friction.
 !>
 !> In: model, states with the part of the cycle that each stands for. Out: `shares_t`, from which `cycle_remarks` makes words.
 module camroller_cycle_shares
@@ -10,6 +10,7 @@ module camroller_cycle_shares
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
    use camroller_hertz, only : peak_pressure
+   use camroller_joint_shares, only : joint_shares_t, note_joints
    use camroller_model, only : model_t
    use camroller_oil_checks, only : hot_film_t, note_hot_film
    use camroller_part_series, only : largest_pressure
@@ -55,6 +56,8 @@ module camroller_cycle_shares
       real(wp) :: liquid_share = 0.0_wp, least_limit = huge(1.0_wp)
       !> Fraction of the cycle in which the roller turns backwards in its finger [-]
       real(wp) :: backward_share = 0.0_wp
+      !> What is left of the friction of sliding joints
+      type(joint_shares_t) :: joints
    end type shares_t
 
    !> Rolling resistance over that by a law for all contacts, from which on a word is due: in elastic contacts the laws are closer
@@ -125,6 +128,7 @@ contains
             call note_shear(shares, model, state, groups, weight)
          end if
          call note_film(shares%film_range, of_film, is_inside, in_event, state%torque_friction, weight)
+         if (allocated(model%joints)) call note_joints(shares%joints, model, state, weight)
       end associate
    end subroutine add_shares
 

@@ -46,6 +46,8 @@ module camroller_study
       logical :: is_flexible = .false.
    end type plan_t
 
+   !> Method in the place of the second one where that has no result: implicit, as the first one, and not of its family
+   character(len=*), parameter :: other_method = "radau5"
    !> Part of the smallest error shown by which the two references may differ [-]
    real(wp), parameter :: agreement = 0.1_wp
    !> Accuracies asked for, tolerances, fixed steps [deg]; those of a quick study
@@ -70,7 +72,8 @@ contains
 
       call add_words(table, "way", "method, film law or model", "study")
       call add_words(table, "dial", "what the setting is; 'reference' for what counts as right", "study")
-      call add_words(table, "message", "error message, or empty", "study")
+      call add_words(table, "message", "error message; of a reference that is there, why it is by other methods; or empty", &
+         & "study")
       call add_numbers(table, "case", "1", "case of the sweep", "study")
       call add_numbers(table, "status", "1", "0, or the kind of the error", "study")
       call add_numbers(table, "setting", "1", "accuracy, tolerance, fixed step in degrees, or nodes", "study")
@@ -106,13 +109,14 @@ contains
       type(way_t), allocatable :: ways(:)
       ! What the two references differ by [-]
       real(wp) :: disagreement
+      character(len=:), allocatable :: note
       integer :: i
 
       listed = case
       listed%effects%select = select_names(select_listed)
       plan = plan_for(case)
-      call make_reference(plan, listed, reference, disagreement, error)
-      call add_reference(table, position, "two methods", reference, disagreement, error)
+      call make_reference(plan, listed, reference, disagreement, note, error)
+      call add_reference(table, position, "two methods", reference, disagreement, error, note)
       if (allocated(error)) return
       call list_ways(plan, ways, is_quick)
       do i = 1, size(ways)
@@ -138,16 +142,19 @@ contains
       plan%tightest_tolerance = 1.0e-6_wp
    end function plan_for
 
-   !> The result by two unlike methods at tight tolerances; an error where they disagree.
-   subroutine make_reference(plan, case, reference, disagreement, error)
-      !> How it is made
-      type(plan_t), intent(in) :: plan
+   !> The result by two unlike methods at tight tolerances; an error where they disagree. Where the second one, which is explicit,
+   !> has none, as with slip that decays too fast for its steps, another implicit method takes its place.
+   subroutine make_reference(plan, case, reference, disagreement, note, error)
+      !> How it is made; out: with the methods that made it
+      type(plan_t), intent(inout) :: plan
       !> The case
       type(case_t), intent(in) :: case
       !> What counts as right
       type(trial_t), intent(out) :: reference
       !> Largest of the errors of one against the other [-]
       real(wp), intent(out) :: disagreement
+      !> Why other methods than planned made it; empty where none did
+      character(len=:), allocatable, intent(out) :: note
       !> Error of a trial, convergence error where they disagree
       type(error_t), allocatable, intent(out) :: error
 
@@ -155,13 +162,19 @@ contains
       type(trial_t) :: trials(2)
       integer :: i
 
+      note = ""
       disagreement = not_a_number()
       variant = case
       variant%numerics%periodicity = min(case%numerics%periodicity, plan%periodicity)
       do i = 1, size(trials)
-         variant%numerics%method = plan%methods(i)
-         variant%numerics%tolerance = plan%tolerances(i)
-         call run_trial(variant, 1, trials(i))
+         call run_method(i)
+         if (i == 2 .and. trials(i)%status == kind_convergence .and. plan%methods(i) /= other_method) then
+            note = "reference by "//trim(plan%methods(1))//" and "//other_method//", two implicit methods, since "// &
+               & trim(plan%methods(i))//", which is explicit, has no result"
+            plan%methods(i) = other_method
+            plan%tolerances(i) = plan%tolerances(1)
+            call run_method(i)
+         end if
          call raise_failure(trials(i), trim(plan%methods(i)), error)
          if (.not. allocated(error)) call check_period(trials(i)%period, error)
          if (allocated(error)) return
@@ -169,6 +182,19 @@ contains
       reference = trials(1)
       disagreement = maxval(errors_against(trials(1), trials(2)))
       call check_agreement(plan, disagreement, error)
+
+   contains
+
+      !> The case by one of the methods.
+      subroutine run_method(i)
+         !> Which
+         integer, intent(in) :: i
+
+         variant%numerics%method = plan%methods(i)
+         variant%numerics%tolerance = plan%tolerances(i)
+         call run_trial(variant, 1, trials(i))
+      end subroutine run_method
+
    end subroutine make_reference
 
    !> Refuse a reference whose turns differ: the last turn of a way may be another one.
@@ -338,7 +364,7 @@ contains
    end subroutine study_film
 
    !> Add what counts as right, or why nothing does.
-   subroutine add_reference(table, position, name, reference, disagreement, error)
+   subroutine add_reference(table, position, name, reference, disagreement, error, note)
       !> Table to extend
       type(study_table_t), intent(inout) :: table
       !> Number of the case, from 1
@@ -351,6 +377,8 @@ contains
       real(wp), intent(in) :: disagreement
       !> Why there is no reference, if there is none
       type(error_t), allocatable, intent(in) :: error
+      !> Why it is by other methods than usual; absent or empty: it is not
+      character(len=*), intent(in), optional :: note
 
       call new_row(table)
       call set_number(table, "case", real(position - 1, wp))
@@ -361,6 +389,7 @@ contains
          call set_word(table, "message", error%message)
       else
          call set_number(table, "status", 0.0_wp)
+         if (present(note)) call set_word(table, "message", note)
          call set_number(table, "error_sliding_speed", disagreement)
          call set_work(table, reference)
       end if

@@ -4,6 +4,7 @@ import pathlib
 import re
 import subprocess
 
+import h5py
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -88,6 +89,25 @@ def test_a_boundary_law_that_is_held_at_its_bound_says_so(camroller, tmp_path):
     assert told + "largest_coefficient = 0.3, at" in remarks(camroller, tmp_path, *point, "asperity.boundary_coefficient=0.5", deck=deck)
     assert told not in remarks(camroller, tmp_path, *point, "boundary_law.change_per_K=-0.0001", "asperity.boundary_coefficient=0.2",
                                "boundary_law.change_per_decade=0.01", deck=deck)
+
+
+@pytest.mark.parametrize(("law", "words"), [
+    ("law = 'logarithmic' reference_speed_m_s = 0.1 reference_temperature_degC = 25 change_per_decade = 0.01 lowest_speed_m_s = 1e-3 "
+     "change_per_K = {}", r"all round below boundary_law\.lowest_speed_m_s \(0\.001\)"),
+    ("law = 'table' speed_points_m_s = 0.001, 1 temperature_points_degC = 25, 95 coefficient_points = 0.18, 0.2, {}, 0.1",
+     r"all round below the first speed of the table of &boundary_law \(0\.001\)")])
+def test_a_roller_slower_than_a_boundary_law_has_speeds_for_is_told_what_is_left_of_it(camroller, tmp_path, law, words):
+    """The speed changes nothing there, but the temperature does: the remark must not say that the law does nothing."""
+    slips = []
+    for number in ("-2e-3", "-1e-3") if "per_K" in law else ("0.06", "0.12"):
+        deck = tmp_path / "law.nml"
+        deck.write_text((ROOT / "decks/thesis.nml").read_text(encoding="utf-8") + "\n&boundary_law " + law.format(number) + " /\n",
+                        encoding="utf-8")
+        text = remarks(camroller, tmp_path, "operating_point.oil_temperature_degC=95", deck=deck)
+        assert re.search(words + ": the boundary coefficient does not depend on the speed there", text), text
+        with h5py.File(tmp_path / "result.h5") as file:
+            slips.append(file["summary/revolution_slip"][()].ravel()[0])
+    assert slips[0] > 1.1 * slips[1]
 
 
 HOT = ("between cam and roller, ", "where they touch, ", "falls exponentially", "of the profiles")

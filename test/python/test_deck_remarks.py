@@ -394,6 +394,16 @@ def test_each_table_of_a_sweep_has_the_remarks_of_a_run(camroller, tmp_path):
     assert sorted(remarks_of(camroller, deck)) == sorted(single[1] + single[2])
 
 
+@pytest.mark.parametrize(("deck", "values", "words"), [
+    ("decks/thesis.nml", ("spring.base_circle_load_N=1600", "spring.precompression_mm=40"), "spring.base_circle_load_N = 1600 is unusual: engines have 0 to 400 N"),
+    ("decks/sliding_joints.nml", ["stem_seal.lip_force_N=200"], "stem_seal.lip_force_N = 200 is unusual: engines have 0 to 40 N"),
+    ("bench/all_effects.nml", ["belt_pull.force_N=10000"], "belt_pull.force_N = 10000 is unusual: engines have 0 to 5000 N"),
+    ("bench/all_effects.nml", ["roller_profile.tilt_mrad=19.5"], "roller_profile.tilt_mrad = 19.5 is unusual: engines have -5 to 5 mrad"),
+])
+def test_a_unit_that_nobody_uses_is_not_asked_for(camroller, deck, values, words):
+    assert any(remark.endswith(words) for remark in remarks_of(camroller, deck, *values))
+
+
 def refusal_of(camroller, *values):
     """The words with which `check` refuses a deck."""
     words = [camroller, "check", "decks/thesis.nml", *(word for value in values for word in ("--set", value))]
@@ -406,15 +416,13 @@ def refusal_of(camroller, *values):
     ("materials.cam_modulus_GPa=170e9", "not 170e9; did you mean 170 GPa?"),
     ("materials.cam_poisson_ratio=28", "not 28; did you mean 0.28, which is 28 %?"),
     ("lubricant.pressure_viscosity_coefficient_per_GPa=22e-9", "not 22e-9; did you mean 22 1/GPa?"),
-    ("roller.mass_kg=8.8e6", "not 8.8e6; did you mean 0.0088 kg?"),
-    ("lubricant.viscosity_points_Pa_s=0.15, 3.05e7, 0.01", "did you mean 0.0305 Pa s?"),
 ])
 def test_a_value_refused_by_its_range_asks_for_the_one_meant(camroller, value, words):
     assert words in refusal_of(camroller, value)
 
 
 @pytest.mark.parametrize("value", ["materials.cam_modulus_GPa=-170", "materials.cam_poisson_ratio=0.7", "roller.mass_kg=0",
-                                   "surface.cam_roughness_um=1e-9"])
+                                   "surface.cam_roughness_um=1e-9", "roller.mass_kg=8.8e6"])
 def test_a_refused_value_that_no_unit_explains_asks_for_none(camroller, value):
     assert "did you mean" not in refusal_of(camroller, value)
 

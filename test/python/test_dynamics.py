@@ -420,6 +420,33 @@ def test_a_rigid_train_that_would_vibrate_has_a_remark(tmp_path, camroller):
     assert flexible["load_factor"] > 1.1 and said not in told
 
 
+def test_a_rigid_train_of_another_size_has_the_stiffness_of_its_size(tmp_path, camroller):
+    """Five times as large at a fifth of the speed: bodies of one shape are five times as stiff, and all that counts is the same."""
+    def scaled(match):
+        powers = {"mm": 1, "kg": 3, "N": 2, "N_m": 1, "um": 1, "rpm": -1}
+        name = re.search(r"(?<=_)(mm|kg|um|rpm|N_m|N)$", match[1])
+        return match[0] if not name else f"{match[1]} = {', '.join(str(float(x) * 5.0**powers[name[0]]) for x in match[2].split(','))}"
+
+    text = RIGID.read_text(encoding="utf-8")
+    text = text[:text.index("&sweep")].replace("oil_temperature_degC = 25", "oil_temperature_degC = 95")
+    text = text.replace("speed_rpm = 300", "speed_rpm = 2800").replace("&spring\n", "&spring\n   seat_stiffness_N_m = 1e7\n")
+    (tmp_path / "small.nml").write_text(text)
+    large = re.sub(r"(\w+) = ([\d., e-]+)(?=\n)", scaled, text).replace("viscosity_points_Pa_s = 0.15, 0.0305, 0.01",
+                                                                       "viscosity_points_Pa_s = 0.75, 0.1525, 0.05")
+    (tmp_path / "large.nml").write_text(large)
+    found = []
+    for size in ("small", "large"):
+        done = subprocess.run([camroller, "run", tmp_path / f"{size}.nml", "-o", tmp_path / "run.h5"], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        told = re.search(r"usual for its size, (\S+) N/m of the finger and (\S+) of its pad, its natural frequency", done.stderr)
+        assert told, done.stderr
+        assert {float(number) for number in told.groups()} == {5e7 if size == "small" else 2.5e8}
+        with h5py.File(tmp_path / "run.h5") as file:
+            found.append([file[f"summary/{name}"][()].ravel()[0] for name in ("train_frequency", "load_factor", "max_hertz_pressure")])
+    (frequency, factor, pressure), large = found
+    assert large == pytest.approx([frequency / 5, factor, pressure], rel=1e-9)
+
+
 @pytest.mark.parametrize("change", ["spring_surge.damping_ratio=0", "dynamics.contact_damping_s_m=100"])
 def test_estimates_keep_a_size_without_damping_and_with_too_much(change, tmp_path, camroller):
     done = subprocess.run([camroller, "run", DECK, "--no-sweep", "-o", tmp_path / "a.h5",

@@ -116,6 +116,25 @@ def test_smaller_tolerances_give_smaller_errors_and_estimates_hold(done):
     assert numpy.allclose(table["setting"][table["way"] == "euler"], [1, 0.1])
 
 
+@pytest.mark.parametrize(("deck", "point"), [("thesis", (20, 95)), ("four_cylinder", (200, -30))])
+def test_a_case_that_no_explicit_method_solves_has_two_implicit_references(camroller, tmp_path, deck, point):
+    (tmp_path / "one.nml").write_text(f"include = '{ROOT}/decks/{deck}.nml', without = 'sweep'\n")
+    point = [word for name, value in zip(("speed_rpm", "oil_temperature_degC"), point) for word in ("--set", f"operating_point.{name}={value}")]
+    result = study(camroller, "one.nml", *QUICK, *point, folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    told = "reference by rodas5p and radau5, two implicit methods, since dormand_prince, which is explicit, has no result"
+    assert told + ": 1 case\n" in result.stdout and max(map(len, result.stdout.splitlines())) <= 132
+    table = read(tmp_path / "one_study.h5")
+    reference = table["dial"] == "reference"
+    assert list(table["message"][reference]) == [told] and table["error_sliding_speed"][reference][0] < 1e-9
+    explicit = table["way"] == "dormand_prince"
+    assert (table["status"][explicit] == 5).all()
+    steps, allowed = re.search(r"the turn takes more than (\d+) steps, with (\d+) allowed", table["message"][explicit][0]).groups()
+    assert int(steps) >= int(allowed)
+    automatic = table["way"] == "automatic"
+    assert (table["error_sliding_speed"][automatic] <= table["setting"][automatic]).all()
+
+
 def test_a_case_without_a_reference_is_recorded_and_ends_with_its_error(camroller, tmp_path):
     text = (ROOT / "decks/hard/frictionless_contact.nml").read_text(encoding="utf-8").replace("'../", f"'{ROOT}/decks/")
     text += "&sweep key_1 = 'traction.limiting_coefficient', values_1 = 0.06, 1e-9 /\n&numerics max_cycles = 2 /\n"

@@ -31,6 +31,7 @@ contains
          new_unittest("an oscillator without damping, and one that creeps, have responses of a size", test_extremes), &
          new_unittest("natural frequencies of the reference train, with fixed pivot and with adjuster, agree with the reference", &
             & test_frequencies), &
+         new_unittest("a rigid train of another size has the frequency and the load factor of its size", test_size), &
          new_unittest("load factors of the reference train agree with the reference within one per cent", test_load_factors), &
          new_unittest("surge forced by one harmonic of the lift agrees with the closed form", test_one_harmonic), &
          new_unittest("surge is the sum of the closed responses to the harmonics of the lift", test_surge), &
@@ -119,6 +120,42 @@ contains
       ! A rigid train takes the usual stiffness, which is the reference train's
       call check_close(error, rigid%frequencies(1), fixed%frequencies(1), 1.0e-12_wp, "rigid train")
    end subroutine test_frequencies
+
+   !> Bodies of one shape and material: as much stiffer as they are larger, with masses as their volumes.
+   subroutine test_size(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: size = 5.0_wp ! [-]
+      type(case_t) :: the_case
+      type(model_t) :: model
+      type(outlook_t) :: small, large
+
+      call estimate(2800.0_wp, -1, .false., small, error)
+      if (allocated(error)) return
+      the_case = thesis_case()
+      call set_point(the_case, 2800.0_wp*pi/30.0_wp/size, 0.01_wp)
+      associate (mechanism => the_case%mechanism)
+         mechanism%pivot_to_roller = size*mechanism%pivot_to_roller
+         mechanism%pivot_to_pad = size*mechanism%pivot_to_pad
+         mechanism%pivot_to_cam = size*mechanism%pivot_to_cam
+         mechanism%base_radius = size*mechanism%base_radius
+         mechanism%roller_radius = size*mechanism%roller_radius
+         mechanism%contact_width = size*mechanism%contact_width
+      end associate
+      the_case%lift%max_lift = size*the_case%lift%max_lift
+      the_case%masses%valve = size**3*the_case%masses%valve
+      the_case%masses%finger = size**3*the_case%masses%finger
+      the_case%roller%mass = size**3*the_case%roller%mass
+      the_case%roller%wall_thickness = size*the_case%roller%wall_thickness
+      the_case%spring%stiffness = size*the_case%spring%stiffness
+      the_case%spring%precompression = size*the_case%spring%precompression
+      the_case%spring%base_circle_load = size**2*the_case%spring%base_circle_load
+      the_case%spring%seat_stiffness = size*the_case%spring%seat_stiffness
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call find_outlook(model, large)
+      call check_close(error, large%frequencies(1), small%frequencies(1)/size, 1.0e-12_wp, "frequency")
+      if (.not. allocated(error)) call check_close(error, large%load_factor, small%load_factor, 1.0e-12_wp, "load factor")
+   end subroutine test_size
 
    !> Rows of an independent program with the same estimate; where points half a vibration apart lie changes it by up to 0.01.
    subroutine test_load_factors(error)
