@@ -128,20 +128,24 @@ contains
       text = buffer
    end function rounded_text
 
-   !> Append a number rounded to so many significant digits to a text. It is written once, where a function writes it again to know
-   !> how long it is.
+   !> Append a number to a text, rounded or with as few digits as give it back. It is written once, where a function writes it again
+   !> to know how long it is.
    pure subroutine append_number(text, value, digits)
       !> The text
       character(len=:), allocatable, intent(inout) :: text
       !> The number [any unit]
       real(wp), intent(in) :: value
-      !> Digits, from 1 to 17
-      integer, intent(in) :: digits
+      !> Significant digits that it is rounded to, from 1 to 17
+      integer, intent(in), optional :: digits
 
       character(len=number_length) :: buffer
       integer :: length
 
-      call write_plain(value, digits, digits, buffer, length)
+      if (present(digits)) then
+         call write_plain(value, digits, digits, buffer, length)
+      else
+         call write_plain(value, 1, all_digits, buffer, length)
+      end if
       text = text//buffer(:length)
    end subroutine append_number
 

@@ -6,7 +6,7 @@ module camroller_deck
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t
    use camroller_kinds, only : wp
-   use camroller_number_text, only : integer_text, number_text
+   use camroller_number_text, only : append_number, integer_text
    use camroller_pivot, only : assumed_centre, assumed_inertia
    use camroller_case_columns, only : column_reader_t
    use camroller_mistakes, only : add_mistake, mistakes_t, raise_mistakes, override_place
@@ -222,7 +222,8 @@ contains
             if (value%is_given) return
             value%is_known = number > 0.0_wp
             value%numbers = [number]
-            value%text = number_text(factor*number)
+            value%text = ""
+            call append_number(value%text, factor*number)
          end associate
       end subroutine assume
 
