@@ -12,20 +12,26 @@
 !> The fit of the bracket is for widths to one diameter, as it is used; beyond 1.2 a wider bearing would let less oil out.
 !>
 !> The bearing and its oil are too slow to follow a turn. Left out: oil that is pressed through by the pressure of the supply.
+!>
+!> What the metal takes is `1 - share`, whatever its temperature. How large that part is follows from what the oil carries away, the
+!> film passes into the metal and the metal passes on, all three per kelvin. The film conducts much better than the rest, so that
+!> the oil is as warm as the metal, and the metal decides: one as cold as the oil supplied takes all that the film conducts, and
+!> any takes what it gives off to still air.
 module camroller_bearing_heat
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : two_pi, wp
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_journal, only : cam_bearings_t, is_short, journal_law_names, journal_t, law_short
    implicit none
    private
 
    public :: bearing_heat_t, check_bearing_heat, oil_flow, temperature_rise, direct_advice, flow_covers_width, flow_advice
+   public :: heat_by_oil, heat_by_film, heat_by_housing
 
    !> What a case says about heat of its camshaft bearings
    type :: bearing_heat_t
       !> Heat capacity of the oil [J/(kg K)]
       real(wp) :: heat_capacity = 2000.0_wp
-      !> Part of the friction's heat that the oil carries away; the rest goes into the metal [-]
+      !> Part of the friction's heat that the oil carries away; the rest goes into the metal. One: the metal passes nothing on [-]
       real(wp) :: oil_share = 1.0_wp
    end type bearing_heat_t
 
@@ -35,6 +41,9 @@ module camroller_bearing_heat
 
    !> Width over diameter to which the side flow is known, but for short bearings [-]
    real(wp), parameter :: widest = 1.0_wp
+   !> Heat that the metal of a bearing passes on at the least, over the journal's surface in it: 20 W/(m^2 K) into air that hardly
+   !> moves, from a housing of some 15 B D (usual values for bearings that their housing cools, ISO 7902-1) [W/(m^2 K)]
+   real(wp), parameter :: least_transfer = 100.0_wp
    !> What to say where it is not
    character(len=*), parameter :: flow_advice = "the heat balance of camshaft bearings knows the oil that leaves at the sides "// &
       & "of bearings up to 1 diameter wide; leave &bearing_heat out for wider ones"
@@ -95,14 +104,59 @@ contains
       !> The rise [K]
       real(wp) :: rise
 
-      ! Power for each kelvin [W/K]
-      real(wp) :: carried
+      real(wp) :: carried ! [W/K]
 
       rise = 0.0_wp
       if (.not. heat%oil_share*power > 0.0_wp) return
-      carried = 2.0_wp*density*heat%heat_capacity*flow
+      carried = heat_by_oil(heat, density, flow)
       rise = huge(1.0_wp)
       if (carried > heat%oil_share*power/1.0e6_wp) rise = heat%oil_share*power/carried
    end function temperature_rise
+
+   !> Heat that the oil carries away for each kelvin by which its mean temperature is above that of the supply: it leaves twice as
+   !> warm as that.
+   pure function heat_by_oil(heat, density, flow) result(carried)
+      !> What is given
+      type(bearing_heat_t), intent(in) :: heat
+      !> Density of the oil [kg/m^3], mean flow [m^3/s]
+      real(wp), intent(in) :: density, flow
+      !> Power for each kelvin [W/K]
+      real(wp) :: carried
+
+      carried = 2.0_wp*density*heat%heat_capacity*flow
+   end function heat_by_oil
+
+   !> Heat that the film conducts for each kelvin by which it is warmer than the metal, `k 2 pi r B/c`: into one surface from the
+   !> other across the whole clearance, the least.
+   pure function heat_by_film(journal, conductivity) result(conducted)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Thermal conductivity of the oil, k [W/(m K)]
+      real(wp), intent(in) :: conductivity
+      !> Power for each kelvin [W/K]
+      real(wp) :: conducted
+
+      conducted = conductivity*surface_of(journal)/(journal%clearance_ratio*journal%radius)
+   end function heat_by_film
+
+   !> Heat that the metal passes on at the least for each kelvin by which it is warmer than what is around.
+   pure function heat_by_housing(journal) result(passed)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Power for each kelvin [W/K]
+      real(wp) :: passed
+
+      passed = least_transfer*surface_of(journal)
+   end function heat_by_housing
+
+   !> Surface of the journal in its bearing, `2 pi r B`.
+   pure function surface_of(journal) result(surface)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> The surface [m^2]
+      real(wp) :: surface
+
+      surface = 2.0_wp*two_pi*journal%radius**2*journal%width_ratio
+   end function surface_of
 
 end module camroller_bearing_heat

@@ -18,7 +18,7 @@ module camroller_bearing_remarks
    implicit none
    private
 
-   public :: judge_bearings
+   public :: judge_bearings, name_bearing
 
    !> Film below which usual surfaces touch: the roughness of a ground journal, 0.2 um, and of a bored bearing, 0.4 um, together [m]
    real(wp), parameter :: usual_roughness = 0.5e-6_wp
@@ -186,10 +186,20 @@ contains
       do k = 1, size(films)
          films(k)%share = real(below(worst(1), worst(2), k), wp)/angles
          films(k)%others = count(below(:, :, k) > 0) - 1
-         films(k)%bearing = "camshaft bearing "//integer_text(worst(1))
-         if (solved%shaft%count > 1) films(k)%bearing = "bearing "//integer_text(worst(1))//" of camshaft "//integer_text(worst(2))
+         call name_bearing(worst(1), worst(2), solved%shaft%count, films(k)%bearing)
       end do
    end subroutine look_closely
+
+   !> Name a bearing of a camshaft.
+   pure subroutine name_bearing(bearing, camshaft, camshafts, name)
+      !> Number of the bearing, of its camshaft, and how many camshafts there are
+      integer, intent(in) :: bearing, camshaft, camshafts
+      !> In words
+      character(len=:), allocatable, intent(out) :: name
+
+      name = "camshaft bearing "//integer_text(bearing)
+      if (camshafts > 1) name = "bearing "//integer_text(bearing)//" of camshaft "//integer_text(camshaft)
+   end subroutine name_bearing
 
    !> Smallest films of all bearings at one of the angles.
    subroutine take_films(solved, number, films, error)

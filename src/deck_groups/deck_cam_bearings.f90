@@ -53,7 +53,8 @@ contains
          & "heat balance of each camshaft bearing: viscosity at the mean temperature of its oil")
       call add_number(schema, "heat_capacity_J_kg_K", positive, "heat capacity of the oil", default=usual_heat%heat_capacity)
       call add_number(schema, "oil_share", from_to(0.0_wp, 1.0_wp), &
-         & "part of the friction's heat that the oil carries away; the rest goes into the metal", default=usual_heat%oil_share)
+         & "part of the friction's heat that the oil carries away; the rest goes into the metal: most of it at low speed, "// &
+         & "where a remark gives bounds", default=usual_heat%oil_share)
       call add_group(schema, "shaft_drag", group_effect, &
          & "torque of the seals and of the belt or chain on each camshaft, as a table over speed and temperature; needs "// &
          & "&cam_bearings")

@@ -9,9 +9,9 @@ module camroller_film_remarks
    use camroller_lubricant, only : pressure_limit
    use camroller_means, only : has_film_limit, statistics_t
    use camroller_model, only : model_t
-   use camroller_number_text, only : append_number, fixed_text, number_text
+   use camroller_number_text, only : append_number, fixed_text, integer_text, number_text
    use camroller_remarks, only : remark_t, add_remark, backward_roller, beyond_pressure_law, film_without_limit, liquid_limit, &
-      & rubbing_contact, rubbing_pin, yielding_surface
+      & outer_asperities, rubbing_contact, rubbing_pin, yielding_surface
    use camroller_result, only : lobe_scope
    implicit none
    private
@@ -25,6 +25,8 @@ module camroller_film_remarks
    !> Part of a cycle from which on shear of the film, or oil beside the dry contact, is worth a word: moments beside a lost contact
    !> are less [-]
    real(wp), parameter :: notable_share = 0.01_wp
+   !> The same of asperities beside the dry contact, whose load counts in the mean [-]
+   real(wp), parameter :: notable_outer = 0.1_wp
 
 contains
 
@@ -112,8 +114,8 @@ contains
          & "film load that asperities would carry, and the friction stated is too small", roughness/max(smallest, tiny(smallest)))
    end subroutine judge_pin
 
-   !> Say that the film is next to nothing beside the roughness, that its shear is limited where it is a liquid, and that the roller
-   !> turns backwards.
+   !> Say that the film is next to nothing beside the roughness, that asperities touch beside the dry contact, that the film's shear
+   !> is limited where it is a liquid, and that the roller turns backwards.
    subroutine judge_traction(model, shares, remarks)
       !> Model of the lobe
       type(model_t), intent(in) :: model
@@ -123,6 +125,7 @@ contains
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       if (shares%thin_share > 0.0_wp) call check_thin_film(allocated(model%boundary), shares, remarks)
+      if (shares%outer_share > notable_outer) call check_outer(shares, remarks)
       if (shares%liquid_share > notable_share) call check_liquid(model, shares, remarks)
       if (shares%backward_share > notable_share) call add_remark(remarks, backward_roller, "the roller turns backwards in "// &
          & "its finger for "//number_text(100.0_wp*shares%backward_share, 3)//" % of the cycle: rolling resistance is "// &
@@ -154,6 +157,23 @@ contains
       if (.not. has_asperities) text = text//"; without &asperity none is counted"
       call add_remark(remarks, rubbing_contact, text, 100.0_wp*shares%thin_share)
    end subroutine check_thin_film
+
+   !> Say that asperities touch beside the strip of the dry contact as well.
+   pure subroutine check_outer(shares, remarks)
+      !> Fractions of the cycle
+      class(shares_t), intent(in) :: shares
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: percents(3) ! of the cycle, of the load with those beside the strip and without them
+
+      percents = nint(100.0_wp*[shares%outer_share, [shares%inner_part + shares%outer_gain, shares%inner_part]/shares%outer_share])
+      call add_remark(remarks, outer_asperities, "asperities are counted in the strip of the dry contact alone: for "// &
+         & integer_text(percents(1))//" % of the cycle those beside it count as well, and all would carry about "// &
+         & integer_text(percents(2))//" % of the load there at the same film, in the place of "//integer_text(percents(3))// &
+         & " %; boundary friction and wear go by it; 'camroller ehl' solves the contact with asperities at each place", &
+         & shares%outer_gain)
+   end subroutine check_outer
 
    !> Say that the traction of a film is limited whose pressure does not make its oil solid.
    subroutine check_liquid(model, shares, remarks)

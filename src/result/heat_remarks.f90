@@ -1,11 +1,14 @@
 !> Remarks on heat that a case leaves out: oil that friction would warm in the bearings of the camshaft, between roller and pin, or
-!> in the inlets of contacts, by so much that films and friction are other ones.
+!> in the inlets of contacts, by so much that films and friction are other ones; on metal of bearings that is taken to pass none on.
 !>
 !> In: a solved case, its summary, mean torques and films of its bearings. Out: remarks, one line of each kind. They are estimates
-!> of what `&bearing_heat` and `&heat` compute, from one bearing and one contact for all.
+!> of what `&bearing_heat` and `&heat` compute, from one bearing and one contact for all. The metal of a bearing takes what it
+!> passes on at the least (`heat_by_housing`), and the oil the rest, or takes all that the film conducts into it.
 module camroller_heat_remarks
    use camroller_kinds, only : wp, two_pi
-   use camroller_bearing_heat, only : bearing_heat_t, flow_covers_width, oil_flow, temperature_rise
+   use camroller_bearing_heat, only : bearing_heat_t, flow_covers_width, heat_by_film, heat_by_housing, heat_by_oil, oil_flow
+   use camroller_bearing_remarks, only : name_bearing
+   use camroller_case, only : case_t
    use camroller_catalogue, only : lobe_prefix
    use camroller_error, only : error_t
    use camroller_journal, only : film_at, film_friction, find_tangent, journal_solved, journal_t, journal_without_film, &
@@ -14,7 +17,7 @@ module camroller_heat_remarks
    use camroller_lubricant, only : density_at, get_oil, law_direct, oil_t, temperature_law_names
    use camroller_number_text, only : number_text
    use camroller_pin_film, only : pin_journal
-   use camroller_remarks, only : add_remark, cool_bearings, cool_inlet, cool_pin
+   use camroller_remarks, only : add_remark, cool_bearings, cool_inlet, cool_pin, insulated_metal, rubbing_pin
    use camroller_result, only : find_quantity, result_t
    use camroller_sampled_extremes, only : samples_t
    use camroller_shaft, only : bearing_number, solved_t
@@ -26,6 +29,9 @@ module camroller_heat_remarks
    !> Part of the film, or of the friction of bearings, that is left with heat, from which on a remark is worth its line: film
    !> laws differ by no more from each other [-]
    real(wp), parameter :: worth_a_word = 0.7_wp
+   !> Part of the heat that is left to the oil by metal which passes on the least, from which down the metal decides how warm a
+   !> bearing is, and not its oil: it takes more than the oil [-]
+   real(wp), parameter :: enough_oil = 0.5_wp
    !> Rise of the temperature over which the viscosity's fall is taken [K]
    real(wp), parameter :: fall_step = 5.0_wp
 
@@ -46,6 +52,7 @@ contains
       if (solved%case%lubricant%temperature_law == temperature_law_names(law_direct)) return
       if (allocated(solved%shaft%bearings) .and. .not. allocated(solved%case%bearing_heat)) call judge_bearing_oil(solved, films, &
          & torques, result)
+      if (allocated(solved%shaft%rises) .and. allocated(solved%case%bearing_heat)) call judge_metal(solved, films, result)
       if (allocated(solved%models(1)%bearing)) then
          if (allocated(solved%models(1)%bearing%film)) call judge_pins(solved, result)
       end if
@@ -65,31 +72,160 @@ contains
       !> Gets the remark
       type(result_t), intent(inout) :: result
 
-      ! Parts of a turn that the angles stand for, mean eccentricity of each camshaft [-]
-      real(wp) :: parts(films%count), eccentricities(size(torques))
-      ! Rise with the viscosity at the temperature of the supply, that with its own [K]; friction over that of the supply's [-]
-      real(wp) :: rises(size(torques)), rise, part
-      integer :: n, k
+      character(len=*), parameter :: cold_metal = " for metal as cold as the supply"
+      ! Mean eccentricity of each bearing of each camshaft [-]
+      real(wp) :: each(bearing_number(solved%shaft), size(torques))
+      ! Rise [K]; part of the heat that the oil carries away, friction over that with the oil of the supply; those of the bearings
+      ! that warm the most [-]
+      real(wp) :: rise, share, part, largest, share_there, smallest
+      integer :: k
 
-      associate (bearings => solved%shaft%bearings, shaft => solved%shaft, case => solved%case)
-         n = films%count
-         if (n < 2 .or. .not. flow_covers_width(bearings%law, bearings%width, bearings%diameter)) return
-         parts = modulo(cshift(films%angle(:n), 1) - cshift(films%angle(:n), -1), two_pi)/(2.0_wp*two_pi)
-         associate (number => bearing_number(shaft))
-            do k = 1, size(torques)
-               eccentricities(k) = 1.0_wp - sum(matmul(films%values((k - 1)*number + 1:k*number, :n), parts)) &
-                  & /(number*bearings%radial_clearance)
-               rises(k) = temperature_rise(bearing_heat_t(), density_at(case%lubricant, case%operating_point%oil_temperature), &
-                  & torques(k)*abs(shaft%speed), number*oil_flow(shaft%journal, shaft%speed, eccentricities(k)))
-            end do
-         end associate
-         call warm_bearing(solved, shaft%journal, eccentricities(maxloc(rises, 1)), maxval(rises), rise, part)
-         if (part > worth_a_word) return
+      smallest = worth_a_word
+      associate (bearings => solved%shaft%bearings, shaft => solved%shaft)
+         if (films%count < 2 .or. .not. flow_covers_width(bearings%law, bearings%width, bearings%diameter)) return
+         each = mean_eccentricities(films, bearings%radial_clearance, size(torques))
+         do k = 1, size(torques)
+            call expect_warming(solved, shaft%journal, shaft%speed, sum(each(:, k))/size(each, 1), &
+               & torques(k)*abs(shaft%speed)/size(each, 1), rise, share, part)
+            if (part >= smallest) cycle
+            smallest = part
+            largest = rise
+            share_there = share
+         end do
+         if (.not. smallest < worth_a_word) return
          call add_remark(result%remarks, cool_bearings, "the oil in the bearings of the camshaft is taken at the temperature "// &
-            & "of the supply; friction would warm it by about "//number_text(rise, 2)//" K, and that of "// &
-            & "the film be about "//number_text(part, 2)//" of what it is; &bearing_heat computes it", 1.0_wp/part)
+            & "of the supply; friction would warm it by about "//number_text(largest, 2)//" K, and that of "// &
+            & "the film be about "//number_text(smallest, 2)//" of what it is; &bearing_heat with oil_share = "// &
+            & number_text(share_there, 2)//" computes it"//cold_metal(:merge(len(cold_metal), 0, share_there < enough_oil)), &
+            & 1.0_wp/smallest)
       end associate
    end subroutine judge_bearing_oil
+
+   !> Mean eccentricity over the turn of each bearing of each camshaft.
+   pure function mean_eccentricities(films, clearance, camshafts) result(means)
+      !> As of `judge_heat` [m]
+      type(samples_t), intent(in) :: films
+      !> Radial clearance [m]
+      real(wp), intent(in) :: clearance
+      !> Number of camshafts
+      integer, intent(in) :: camshafts
+      !> The means, shape (bearing, camshaft) [-]
+      real(wp) :: means(size(films%values, 1)/camshafts, camshafts)
+
+      real(wp) :: parts(films%count) ! of a turn that the angles stand for [-]
+
+      associate (n => films%count)
+         parts = modulo(cshift(films%angle(:n), 1) - cshift(films%angle(:n), -1), two_pi)/(2.0_wp*two_pi)
+         means = 1.0_wp - reshape(matmul(films%values(:, :n), parts), shape(means))/clearance
+      end associate
+   end function mean_eccentricities
+
+   !> Rise of the temperature that friction would make in a bearing. Its metal passes on what it does at the least; where this is
+   !> more than the oil carries away, the metal decides, and is taken as cold as the oil supplied: the bearing is no colder then.
+   subroutine expect_warming(solved, journal, speed, eccentricity, power, rise, share, part)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The bearing with the oil of the supply
+      type(journal_t), intent(in) :: journal
+      !> Its speed [rad/s]; eccentricity [-] and mean power of friction [W] with that oil
+      real(wp), intent(in) :: speed, eccentricity, power
+      !> The rise [K]; part of the heat that the oil carries away, friction over that with the oil of the supply [-]
+      real(wp), intent(out) :: rise, share, part
+
+      real(wp) :: by_metal(2) ! [W/K]
+      integer :: i
+
+      associate (case => solved%case)
+         by_metal = [heat_by_housing(journal), heat_by_film(journal, oil_conductivity(case))]
+         associate (by_oil => heat_by_oil(bearing_heat_t(), density_at(case%lubricant, case%operating_point%oil_temperature), &
+               & oil_flow(journal, speed, eccentricity)))
+            do i = 1, size(by_metal)
+               share = by_oil/(by_oil + by_metal(i))
+               call warm_bearing(solved, journal, eccentricity, power/(by_oil + by_metal(i)), share, rise, part)
+               if (share >= enough_oil) exit
+            end do
+         end associate
+      end associate
+   end subroutine expect_warming
+
+   !> Thermal conductivity of the oil: that of the case, or a usual one.
+   pure function oil_conductivity(case) result(conductivity)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The conductivity [W/(m K)]
+      real(wp) :: conductivity
+
+      type(heat_t) :: heat
+
+      if (allocated(case%heat)) heat = case%heat
+      conductivity = heat%oil_conductivity
+   end function oil_conductivity
+
+   !> Bearings of the camshaft whose heat goes into the oil, by `oil_share`, where metal cannot but take most of it: the one whose
+   !> viscosity that changes the most.
+   subroutine judge_metal(solved, films, result)
+      !> The solved case, with temperatures of its bearings
+      type(solved_t), intent(in) :: solved
+      !> As of `judge_heat` [m]
+      type(samples_t), intent(in) :: films
+      !> Gets the remark
+      type(result_t), intent(inout) :: result
+
+      real(wp) :: each(size(solved%shaft%rises, 1), size(solved%shaft%rises, 2)) ! mean eccentricities [-]
+      ! Viscosity over that with the metal's least part, the smallest of all bearings; parts of the heat left to the oil by a
+      ! housing in still air and by metal as cold as the supply; conduction by the film over what the oil carries, there [-]
+      real(wp) :: part, smallest, left(2), left_there(2), times
+      integer :: bearing, k, place(2)
+      character(len=:), allocatable :: name
+
+      smallest = worth_a_word
+      times = 0.0_wp
+      associate (case => solved%case, shaft => solved%shaft, heat => solved%case%bearing_heat)
+         if (films%count < 2) return
+         each = mean_eccentricities(films, shaft%bearings%radial_clearance, size(each, 2))
+         do k = 1, size(each, 2)
+            do bearing = 1, size(each, 1)
+               associate (journal => shaft%warm(bearing, k), rise => shaft%rises(bearing, k), &
+                     & carried => max(tiny(1.0_wp), heat_by_oil(heat, density_at(case%lubricant, &
+                     & case%operating_point%oil_temperature), oil_flow(shaft%journal, shaft%speed, each(bearing, k)))))
+                  left = carried/(carried + [heat_by_housing(journal), heat_by_film(journal, oil_conductivity(case))])
+                  if (left(1) > enough_oil*heat%oil_share) cycle
+                  part = viscosity_at(solved, rise)/viscosity_at(solved, rise*left(1)/heat%oil_share)
+                  if (part >= smallest) cycle
+                  smallest = part
+                  left_there = left
+                  times = heat_by_film(journal, oil_conductivity(case))/carried
+                  place = [bearing, k]
+               end associate
+            end do
+         end do
+         if (.not. times > 0.0_wp) return
+         call name_bearing(place(1), place(2), size(each, 2), name)
+         call add_remark(result%remarks, insulated_metal, "bearing_heat.oil_share = "//number_text(heat%oil_share, 3)// &
+            & " leaves the heat of "//name//" to its oil, "//number_text(shaft%rises(place(1), place(2)), 3)//" K warmer than "// &
+            & "the supply, whose film conducts "//number_text(times, 2)//" times what the oil carries away into the metal: "// &
+            & "a housing in still air leaves the oil "//number_text(left_there(1), 2)//" of the heat, metal as cold as the "// &
+            & "supply "//number_text(left_there(2), 2)//"; an oil_share between these is right, and friction larger", &
+            & 1.0_wp/smallest)
+      end associate
+   end subroutine judge_metal
+
+   !> Viscosity at a rise of the temperature above that of the supply, at which the case is solved.
+   function viscosity_at(solved, rise) result(viscosity)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The rise [K]
+      real(wp), intent(in) :: rise
+      !> The viscosity [Pa s]
+      real(wp) :: viscosity
+
+      type(oil_t) :: oil
+      type(error_t), allocatable :: error
+
+      call get_oil(solved%case%lubricant, solved%case%operating_point%oil_temperature + rise, oil, error)
+      viscosity = solved%models(1)%oil%viscosity
+      if (.not. allocated(error)) viscosity = oil%viscosity
+   end function viscosity_at
 
    !> Oil between a roller and its plain pin, of the lobe shape where it would warm the most: by mean torque, spin and eccentricity,
    !> as for bearings of the camshaft.
@@ -100,9 +236,10 @@ contains
       type(result_t), intent(inout) :: result
 
       type(journal_t) :: journal
-      ! Mean torque [N m], spin [rad/s] and eccentricity [-]; rise with the viscosity of the oil around, with its own, the largest
-      ! [K]; friction over that with the oil around, that of the largest rise [-]
-      real(wp) :: torque, spin, eccentricity, cold, rise, largest, part, left
+      ! Mean spin [rad/s] and eccentricity [-]; rise, the largest [K]; part of the heat that the oil carries away, friction over
+      ! that with the oil around, that of the largest rise [-]
+      real(wp) :: spin, eccentricity, rise, largest, share, part, left
+      character(len=:), allocatable :: verdict
       integer :: lobe
 
       largest = 0.0_wp
@@ -110,22 +247,23 @@ contains
       associate (case => solved%case, pin => solved%case%needle_bearing%film)
          if (.not. flow_covers_width(pin%law, pin%width, 2.0_wp*solved%models(1)%bearing%radius)) return
          do lobe = 1, size(solved%models)
-            torque = mean_of("torque_needle")
             spin = mean_of("roller_spin")
             eccentricity = mean_of("pin_eccentricity")
             journal = pin_journal(solved%models(lobe)%bearing%film, spin)
-            cold = temperature_rise(bearing_heat_t(), density_at(case%lubricant, case%operating_point%oil_temperature), &
-               & torque*case%operating_point%speed, oil_flow(journal, spin, eccentricity))
-            call warm_bearing(solved, journal, eccentricity, cold, rise, part)
+            call expect_warming(solved, journal, spin, eccentricity, mean_of("torque_needle")*case%operating_point%speed, rise, &
+               & share, part)
             if (rise <= largest) cycle
             largest = rise
             left = part
          end do
       end associate
       if (left > worth_a_word) return
+      ! What warm oil takes off the film's friction, asperities add where its film is too thin already
+      verdict = "the pin's friction stated is too large"
+      if (any(result%remarks%kind == rubbing_pin)) verdict = "the thinnest films of the pin are still thinner"
       call add_remark(result%remarks, cool_pin, "the oil between roller and pin is taken as cold as the oil around; friction "// &
          & "would warm it by about "//number_text(largest, 2)//" K, and that of the film be about "//number_text(left, 2)// &
-         & " of what it is; no group computes it, and the pin's friction stated is too large", 1.0_wp/left)
+         & " of what it is; no group computes it, and "//verdict, 1.0_wp/left)
 
    contains
 
@@ -145,28 +283,31 @@ contains
 
    end subroutine judge_pins
 
-   !> Temperature at which the oil carries the friction of a bearing off, by bisection.
-   subroutine warm_bearing(solved, cold_journal, eccentricity, cold, rise, part)
+   !> Temperature at which oil and metal carry the friction of a bearing off, by bisection.
+   subroutine warm_bearing(solved, cold_journal, eccentricity, cold, share, rise, part)
       !> The solved case
       type(solved_t), intent(in) :: solved
       !> The bearing with the oil of the supply
       type(journal_t), intent(in) :: cold_journal
       !> Its eccentricity [-]; rise of the temperature with friction and flow there [K]
       real(wp), intent(in) :: eccentricity, cold
+      !> Part of the heat that the oil carries away: in: with the flow there; out: with that at its temperature [-]
+      real(wp), intent(inout) :: share
       !> Rise that goes with friction and flow at its temperature [K]
       real(wp), intent(out) :: rise
       !> Friction there over that with the oil of the supply [-]
       real(wp), intent(out) :: part
 
-      ! No oil is so much warmer than its supply, a rise below the least changes nothing worth a word, and one beyond the farthest,
-      ! where no oil leaves, is as good as that [K]; steps, of which each halves what may be off: to 0.2 K
-      real(wp), parameter :: largest = 200.0_wp, least = 2.0_wp, farthest = 1.0e6_wp
+      ! No oil is so much warmer than its supply, and a rise below the least changes nothing worth a word [K]; steps, of which each
+      ! halves what may be off: to 0.2 K
+      real(wp), parameter :: largest = 200.0_wp, least = 2.0_wp
       integer, parameter :: steps = 10
       type(oil_t) :: oil
       type(journal_t) :: journal
       type(error_t), allocatable :: error
-      ! Bounds of the rise [K]; e/sqrt(1 - e^2) [-]; load, friction with the oil of the supply [N]; flow over that with it [-]
-      real(wp) :: low, high, t, load, friction, flow
+      ! Bounds of the rise [K]; e/sqrt(1 - e^2) [-]; load, friction with the oil of the supply [N]; heat that oil and metal carry
+      ! off for each kelvin, and the oil alone, over what both do with the flow of that oil [-]
+      real(wp) :: low, high, t, load, friction, carried, by_oil
       integer :: i, status
 
       rise = 0.0_wp
@@ -180,6 +321,8 @@ contains
          friction = film_friction(cold_journal, load, t)
          low = 0.0_wp
          high = min(cold, largest)
+         by_oil = share
+         carried = 1.0_wp
          do i = 1, steps
             rise = 0.5_wp*(low + high)
             call get_oil(case%lubricant, case%operating_point%oil_temperature + rise, oil, error)
@@ -194,10 +337,12 @@ contains
                cycle
             end if
             part = film_friction(journal, load, t)/friction
-            flow = t/sqrt(1.0_wp + t**2)/eccentricity
-            if (rise*flow < min(cold, farthest)*part) low = rise
-            if (rise*flow >= min(cold, farthest)*part) high = rise
+            by_oil = share*t/sqrt(1.0_wp + t**2)/eccentricity
+            carried = by_oil + 1.0_wp - share
+            if (rise*carried < cold*part) low = rise
+            if (rise*carried >= cold*part) high = rise
          end do
+         share = by_oil/carried
       end associate
    end subroutine warm_bearing
 

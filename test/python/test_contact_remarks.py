@@ -31,6 +31,37 @@ def test_hot_oil_of_the_thesis_gives_none(camroller, tmp_path):
     assert "of the roughness" not in remarks(camroller, tmp_path, "operating_point.oil_temperature_degC=95")
 
 
+@pytest.mark.parametrize("roughness, temperature", [(2, 25), (1, 25), (0.5, 60), (0.14, 95)])
+def test_asperities_beside_the_dry_contact_are_told_as_the_solved_contact_has_them(camroller, tmp_path, roughness, temperature):
+    """Within a quarter of the part that the solved contact gives them where it is larger by more than 0.05."""
+    settings = (f"surface.cam_roughness_um={roughness}", f"surface.roller_roughness_um={roughness}",
+                f"operating_point.oil_temperature_degC={temperature}")
+    text = remarks(camroller, tmp_path, *settings)
+    told = re.search(r"for (\d+) % of the cycle those beside it count as well, and all would carry about (\d+) % of the load there at the "
+                     r"same film, in the place of (\d+) %", text)
+    assert told, text
+    cycle, spread, strip = (int(number)/100 for number in told.groups())
+    options = [word for setting in settings for word in ("--set", setting)]
+    deck = tmp_path / "one.nml"
+    deck.write_text(f"include = '{ROOT / 'decks/thesis.nml'}', without = 'sweep'\n", encoding="utf-8")
+    subprocess.run([camroller, "ehl", deck, "-o", tmp_path / "ehl.h5", *options], capture_output=True, check=True)
+    with h5py.File(tmp_path / "ehl.h5") as file:
+        solved, formula = (file[f"ehl/asperity_share{name}"][0] for name in ("", "_formula"))
+    larger = solved - formula > 0.05
+    assert abs(cycle - larger.mean()) < 0.15
+    assert abs(strip/formula[larger].mean() - 1) < 0.1
+    assert abs(spread/solved[larger].mean() - 1) < 0.25
+
+
+@pytest.mark.parametrize("settings", [
+    ("operating_point.oil_temperature_degC=25",), ("operating_point.oil_temperature_degC=60",),
+    # The contact solved at each place has less on asperities that yield than the strip
+    ("operating_point.oil_temperature_degC=95", "asperity.law=zhao_maietta_chang", "materials.hardness_GPa=8"),
+])
+def test_asperities_that_hardly_touch_beside_the_dry_contact_give_none(camroller, tmp_path, settings):
+    assert "in the strip of the dry contact alone" not in remarks(camroller, tmp_path, *settings)
+
+
 @pytest.mark.parametrize("settings, words", [
     (("mechanism.contact_width_mm=2", "spring.stiffness_N_m=200000"), "GPa; even the hard steel of roller bearings stands 4 GPa"),
     (("materials.hardness_GPa=0.5",), "GPa; from 0.3 GPa on, 0.6 of materials.hardness_GPa, the softer body yields"),

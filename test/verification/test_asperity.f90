@@ -5,7 +5,8 @@ module test_asperity
    use camroller_quadrature, only : gauss_legendre
    use camroller_greenwood_tripp, only : integral_2, integral_5_2, largest_film_ratio
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
-      asperity_area_function
+      asperity_area_function, spread_load
+   use camroller_number_text, only : number_text
    use labelled_table, only : read_table
    implicit none
    private
@@ -28,7 +29,8 @@ contains
          new_unittest("integrals fall and stay positive up to the largest film ratio", test_monotonic), &
          new_unittest("beyond the largest film ratio asperities carry no load", test_out_of_reach), &
          new_unittest("asperity pressure of closed surfaces is 47 MPa", test_closed), &
-         new_unittest("constants agree with their formulas", test_constants) &
+         new_unittest("constants agree with their formulas", test_constants), &
+         new_unittest("load in and beside the dry contact agrees with quadrature over its gap", test_spread) &
          ]
    end subroutine collect_asperity
 
@@ -95,6 +97,39 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_quadrature
+
+   !> F(H + g) over X from 1, with g = G(X)/(2 s) and X = 1 + u^2, which is smooth; the fit claims 5 % of what is beside.
+   subroutine test_spread(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(asperity_constants_t) :: constants
+      ! Points and weights, X, gap [-]
+      real(wp), dimension(60) :: u, weights, x, gap
+      ! Function, its slope, what is beside by quadrature and by the fit [-]
+      real(wp) :: inside, slope, there, beside, fit
+      real(wp), parameter :: film_ratios(4) = [0.1_wp, 0.5_wp, 1.0_wp, 3.0_wp], relative(4) = [0.1_wp, 1.0_wp, 10.0_wp, 100.0_wp]
+      integer :: i, j, k
+
+      do i = 1, size(film_ratios)
+         do j = 1, size(relative)
+            call gauss_legendre(u, weights)
+            ! Beyond G = 16 s the gap is beyond the reach of asperities; G is X^2 less next to nothing there
+            u = 0.5_wp*(1.0_wp + u)*sqrt(1.0_wp + 4.0_wp*sqrt(relative(j)))
+            weights = 0.5_wp*weights*sqrt(1.0_wp + 4.0_wp*sqrt(relative(j)))
+            x = 1.0_wp + u**2
+            gap = (x*sqrt(x**2 - 1.0_wp) - log(x + sqrt(x**2 - 1.0_wp)))/(2.0_wp*relative(j))
+            beside = 0.0_wp
+            do k = 1, size(u)
+               call asperity_load_function(constants, film_ratios(i) + gap(k), there, slope)
+               beside = beside + 2.0_wp*u(k)*weights(k)*there
+            end do
+            call asperity_load_function(constants, film_ratios(i), inside, slope)
+            fit = spread_load(constants, film_ratios(i), relative(j)) - inside
+            call check(error, abs(fit/beside - 1.0_wp) < 0.05_wp, number_text(fit/inside, 4)//" for "// &
+               & number_text(beside/inside, 4))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_spread
 
    subroutine test_derivatives(error)
       type(error_type), allocatable, intent(out) :: error
