@@ -141,11 +141,8 @@ contains
       character(len=number_length) :: buffer
       integer :: length
 
-      if (present(digits)) then
-         call write_plain(value, digits, digits, buffer, length)
-      else
-         call write_plain(value, 1, all_digits, buffer, length)
-      end if
+      if (present(digits)) call write_plain(value, digits, digits, buffer, length)
+      if (.not. present(digits)) call write_plain(value, 1, all_digits, buffer, length)
       text = text//buffer(:length)
    end subroutine append_number
 

@@ -17,8 +17,8 @@ module camroller_remarks
       & open_valve, sinking_plunger, pressed_seat, cold_estimate, idle_roller, deep_wear, lifted_valve, &
       & narrow_slices, shaken_train, creeping_roller, shut_valve, empty_chamber, rigid_contact, liquid_limit, backward_roller, &
       & foreign_speed, untouched_film, oiled_slices, lost_lash, plain_contacts, light_contact, &
-      & few_places, held_coefficient, cool_bearings, cool_inlet, missed_hours, far_table, cool_pin, spent_friction, thick_seal_oil, &
-      & outer_asperities, insulated_metal
+      & few_places, held_coefficient, cool_bearings, cool_inlet, missed_hours, far_table, cool_pin, &
+      & spent_friction, thick_seal_oil, outer_asperities, insulated_metal
 
    !> Kinds, in the order of `remark_names`. Their numbers: part of the cycle [%], part of the cycle [%], error [-], times [-],
    !> force [N], force [N], error [-], error [-], error [-], none, error [-], closure [-], cycles, travel over travel [-], film over
