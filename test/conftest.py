@@ -2,6 +2,7 @@
 
 import contextlib
 import fcntl
+import functools
 import os
 import pathlib
 import shutil
@@ -55,6 +56,12 @@ def camroller() -> str:
     path = pathlib.Path(os.environ.get("CAMROLLER", ROOT / "build/release/bin/camroller"))
     assert path.is_file(), f"{path} is missing: `make build` or `make test`"
     return str(path)
+
+
+@pytest.fixture(scope="session")
+def checked(camroller):
+    """What `check` says of a deck as it is, which takes seconds for some: asked for once, however many tests look at it."""
+    return functools.cache(lambda deck: run(camroller, "check", deck))
 
 
 @pytest.fixture(scope="session")

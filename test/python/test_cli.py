@@ -102,8 +102,8 @@ def test_invalid_arguments_are_usage_errors(camroller, arguments, words):
 
 
 @pytest.mark.parametrize("deck", DECKS, ids=lambda path: path.name)
-def test_each_deck_passes_the_check(camroller, deck):
-    result = run(camroller, "check", deck)
+def test_each_deck_passes_the_check(checked, deck):
+    result = checked(deck)
     assert result.returncode == 0, result.stderr
     assert " is valid: " in result.stdout.splitlines()[0]
 

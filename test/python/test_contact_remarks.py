@@ -164,7 +164,7 @@ def test_films_and_surfaces_far_from_what_is_given_say_so(camroller, tmp_path):
 
 
 def test_profiles_say_that_a_place_is_far_from_what_is_given(camroller, tmp_path):
-    deck = heated(tmp_path, "&ehl profiles = .true. / &output angle_step_deg = 4 /")
+    deck = heated(tmp_path, "&ehl profiles = .true. / &output angle_step_deg = 20 /")
     text = remarks(camroller, tmp_path, "operating_point.speed_rpm=2000", "needle_bearing.friction_coefficient=0.3", deck=deck)
     assert "in the profiles the oil temperature between cam and roller, " in text
     assert not any(words in remarks(camroller, tmp_path, "operating_point.speed_rpm=900", deck=deck) for words in HOT)

@@ -156,6 +156,7 @@ def test_a_file_that_was_changed_on_purpose_is_read(camroller, folder):
     assert run(camroller, *RERUN, folder=folder).returncode == 0
 
 
+@pytest.mark.once
 def test_an_endless_list_of_objects_is_refused(camroller, folder):
     """HDF5 looks for a text in a heap whose first piece has no length, and stays there."""
     path = folder / "x.h5"

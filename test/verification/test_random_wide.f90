@@ -28,7 +28,7 @@ module test_random_wide
    use wide_decks, only : wide_deck_t, draw_wide_deck, save_wide_deck, is_left_out, left_out_groups
    use wide_draft, only : style_t
    use wide_numbers, only : usual_t, find_range
-   use wide_words, only : deck_word
+   use wide_words, only : deck_group, deck_word
    implicit none
    private
 
@@ -128,7 +128,7 @@ contains
       type(style_t), parameter :: style = style_t(ends_share=0.3_wp, ehl_share=0.3_wp, method_share=0.5_wp, dynamics_share=0.3_wp, &
          & hours_share=0.3_wp)
       type(wide_deck_t) :: deck
-      character(len=:), allocatable :: word
+      character(len=:), allocatable :: word, lines
       logical :: is_seen(size(schema%keys), most_marks)
       integer :: seed, group, key
 
@@ -139,8 +139,9 @@ contains
          if (deck%unknown /= "" .and. index(missing, deck%unknown//" has no usual range") == 0) missing = missing//deck%unknown &
             & //" has no usual range in wide_numbers or wide_lists;"
          do group = 1, schema%group_count
+            lines = deck_group(deck%text, trim(schema%groups(group)%name))
             do key = schema%groups(group)%first, schema%groups(group)%last
-               word = deck_word(deck%text, trim(schema%groups(group)%name), trim(schema%keys(key)%name))
+               word = deck_word(lines, trim(schema%groups(group)%name), trim(schema%keys(key)%name))
                call mark(schema%keys(key), trim(schema%groups(group)%name), word, is_seen(key, :))
             end do
          end do

@@ -4,7 +4,7 @@ module wide_words
    implicit none
    private
 
-   public :: deck_number, deck_word, number_words
+   public :: deck_group, deck_number, deck_word, number_words
 
    character(len=*), parameter :: nl = new_line("a")
 
@@ -18,23 +18,38 @@ contains
       character(len=*), intent(in) :: group, key
       !> The value
       character(len=:), allocatable :: word
-      integer :: first, last, found
+      character(len=:), allocatable :: lines
+      integer :: first, last
 
       word = ""
+      lines = deck_group(text, group)
+      first = index(lines, "   "//key//" = ")
+      if (first == 0) return
+      first = first + len(key) + 6
+      last = first + index(lines(first:), nl) - 2
+      if (lines(first:first) == "'") then
+         word = lines(first + 1:last - 1)
+      else
+         word = lines(first:last)
+      end if
+   end function deck_word
+
+   !> Lines of a group of a deck, from its name to its end, in which its keys are found sooner; empty where it is not there.
+   pure function deck_group(text, group) result(lines)
+      !> The deck
+      character(len=*), intent(in) :: text
+      !> Name of the group
+      character(len=*), intent(in) :: group
+      !> The lines
+      character(len=:), allocatable :: lines
+      integer :: first, last
+
+      lines = ""
       first = index(text, "&"//group//nl)
       if (first == 0) return
       last = index(text(first:), nl//"/"//nl)
-      last = merge(len(text), first + last - 1, last == 0)
-      found = index(text(first:last), "   "//key//" = ")
-      if (found == 0) return
-      first = first + found - 1 + len(key) + 6
-      last = first + index(text(first:), nl) - 2
-      if (text(first:first) == "'") then
-         word = text(first + 1:last - 1)
-      else
-         word = text(first:last)
-      end if
-   end function deck_word
+      lines = text(first:merge(len(text), first + last, last == 0))
+   end function deck_group
 
    !> A number of a deck; zero where it is not there.
    pure function deck_number(text, group, key) result(value)
