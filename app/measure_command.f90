@@ -190,7 +190,7 @@ contains
       if (what /= of_effects .and. .not. config%is_quiet) call tell_choice(deck)
       call start_console(progress, config%is_quiet)
       call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
-      if (.not. allocated(error)) call write_facts(writer, deck, .true., error)
+      if (.not. allocated(error)) call write_facts(writer, deck, what /= of_effects, error)
       if (allocated(error)) return
       call measure_cases(deck, config, what, progress, table, tally)
       call progress%end_cases()

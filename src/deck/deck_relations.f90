@@ -456,7 +456,7 @@ contains
             & integer_text(cams)//" cams of 'cam_positions_mm'")
       else if (allocated(numbers)) then
          if (abs(sin(0.5_wp*numbers(1))) > rounding) call complain(mistakes, settings, "cam_bearings", key, &
-            & "'"//key//"' begins with 0, since its angles count from the first cam's")
+            & "'"//key//"' must begin with 0: its angles count from the first cam's")
       end if
    end subroutine check_cams
 

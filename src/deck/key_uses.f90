@@ -146,8 +146,8 @@ module camroller_key_uses
       key_use_t("cam_bearings.cam_cylinders", "&engine"), &
       key_use_t("dynamics.seat_damping_s_m", "seat_restitution", not_given), &
       key_use_t("dynamics.seat_restitution_speed_m_s", "seat_restitution", given), &
-      key_use_t("effects.negligible", "select", "needed"), &
-      key_use_t("effects.quantity", "select", "needed"), &
+      key_use_t("effects.negligible", "select", "needed"), key_use_t("effects.negligible", "camroller audit", by_command), &
+      key_use_t("effects.quantity", "select", "needed"), key_use_t("effects.quantity", "camroller audit", by_command), &
       key_use_t("numerics.step_deg", "method", "euler"), &
       key_use_t("numerics.periodicity", "tolerance", given), &
       key_use_t("sweep.seed", "kind", "latin_hypercube sobol random"), &

@@ -169,9 +169,9 @@ contains
 
       percents = nint(100.0_wp*[shares%outer_share, [shares%inner_part + shares%outer_gain, shares%inner_part]/shares%outer_share])
       call add_remark(remarks, outer_asperities, "asperities are counted in the strip of the dry contact alone: for "// &
-         & integer_text(percents(1))//" % of the cycle those beside it count as well, and all would carry about "// &
-         & integer_text(percents(2))//" % of the load there at the same film, in the place of "//integer_text(percents(3))// &
-         & " %; boundary friction and wear go by it; 'camroller ehl' solves the contact with asperities at each place", &
+         & integer_text(percents(1))//" % of the cycle those beside it would carry load too, and all of them about "// &
+         & integer_text(percents(2))//" % of it at the same film, in the place of "//integer_text(percents(3))// &
+         & " %, by which boundary friction and wear go; 'camroller ehl' solves the contact with asperities at each place", &
          & shares%outer_gain)
    end subroutine check_outer
 

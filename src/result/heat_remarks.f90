@@ -72,7 +72,8 @@ contains
       !> Gets the remark
       type(result_t), intent(inout) :: result
 
-      character(len=*), parameter :: cold_metal = " for metal as cold as the supply"
+      character(len=*), parameter :: metals(2) = [character(len=31) :: "for metal as cold as the supply", &
+         & "beside a housing in still air"]
       ! Mean eccentricity of each bearing of each camshaft [-]
       real(wp) :: each(bearing_number(solved%shaft), size(torques))
       ! Rise [K]; part of the heat that the oil carries away, friction over that with the oil of the supply; those of the bearings
@@ -96,8 +97,7 @@ contains
          call add_remark(result%remarks, cool_bearings, "the oil in the bearings of the camshaft is taken at the temperature "// &
             & "of the supply; friction would warm it by about "//number_text(largest, 2)//" K, and that of "// &
             & "the film be about "//number_text(smallest, 2)//" of what it is; &bearing_heat with oil_share = "// &
-            & number_text(share_there, 2)//" computes it"//cold_metal(:merge(len(cold_metal), 0, share_there < enough_oil)), &
-            & 1.0_wp/smallest)
+            & number_text(share_there, 2)//" computes it "//trim(metals(merge(1, 2, share_there < enough_oil))), 1.0_wp/smallest)
       end associate
    end subroutine judge_bearing_oil
 
@@ -140,8 +140,7 @@ contains
          associate (by_oil => heat_by_oil(bearing_heat_t(), density_at(case%lubricant, case%operating_point%oil_temperature), &
                & oil_flow(journal, speed, eccentricity)))
             do i = 1, size(by_metal)
-               share = by_oil/(by_oil + by_metal(i))
-               call warm_bearing(solved, journal, eccentricity, power/(by_oil + by_metal(i)), share, rise, part)
+               call warm_bearing(solved, journal, 0.0_wp, eccentricity, power, by_oil, by_metal(i), rise, share, part)
                if (share >= enough_oil) exit
             end do
          end associate
@@ -172,10 +171,12 @@ contains
       type(result_t), intent(inout) :: result
 
       real(wp) :: each(size(solved%shaft%rises, 1), size(solved%shaft%rises, 2)) ! mean eccentricities [-]
-      ! Viscosity over that with the metal's least part, the smallest of all bearings; parts of the heat left to the oil by a
-      ! housing in still air and by metal as cold as the supply; conduction by the film over what the oil carries, there [-]
-      real(wp) :: part, smallest, left(2), left_there(2), times
-      integer :: bearing, k, place(2)
+      ! Friction over that with the metal's least part, the smallest of all bearings; of a housing in still air and of metal as cold
+      ! as the supply: what it takes [W/K], rise [K], part of the heat left to the oil, friction over that of the case [-], those of
+      ! the bearing told of; conduction by the film over what the oil carries, there [-]
+      real(wp) :: smallest, times
+      real(wp), dimension(2) :: by_metal, rises, left, parts, left_there
+      integer :: bearing, i, k, place(2)
       character(len=:), allocatable :: name
 
       smallest = worth_a_word
@@ -188,25 +189,28 @@ contains
                associate (journal => shaft%warm(bearing, k), rise => shaft%rises(bearing, k), &
                      & carried => max(tiny(1.0_wp), heat_by_oil(heat, density_at(case%lubricant, &
                      & case%operating_point%oil_temperature), oil_flow(shaft%journal, shaft%speed, each(bearing, k)))))
-                  left = carried/(carried + [heat_by_housing(journal), heat_by_film(journal, oil_conductivity(case))])
-                  if (left(1) > enough_oil*heat%oil_share) cycle
-                  part = viscosity_at(solved, rise)/viscosity_at(solved, rise*left(1)/heat%oil_share)
-                  if (part >= smallest) cycle
-                  smallest = part
+                  by_metal = [heat_by_housing(journal), heat_by_film(journal, oil_conductivity(case))]
+                  if (carried > enough_oil*heat%oil_share*(carried + by_metal(1))) cycle
+                  do i = 1, 2
+                     call warm_bearing(solved, journal, rise, each(bearing, k), rise*carried/heat%oil_share, carried, &
+                        & by_metal(i), rises(i), left(i), parts(i))
+                  end do
+                  if (parts(1)*smallest <= 1.0_wp) cycle
+                  smallest = 1.0_wp/parts(1)
                   left_there = left
-                  times = heat_by_film(journal, oil_conductivity(case))/carried
+                  times = by_metal(2)/carried
                   place = [bearing, k]
                end associate
             end do
          end do
          if (.not. times > 0.0_wp) return
          call name_bearing(place(1), place(2), size(each, 2), name)
-         call add_remark(result%remarks, insulated_metal, "bearing_heat.oil_share = "//number_text(heat%oil_share, 3)// &
-            & " leaves the heat of "//name//" to its oil, "//number_text(shaft%rises(place(1), place(2)), 3)//" K warmer than "// &
-            & "the supply, whose film conducts "//number_text(times, 2)//" times what the oil carries away into the metal: "// &
-            & "a housing in still air leaves the oil "//number_text(left_there(1), 2)//" of the heat, metal as cold as the "// &
-            & "supply "//number_text(left_there(2), 2)//"; an oil_share between these is right, and friction larger", &
-            & 1.0_wp/smallest)
+         call add_remark(result%remarks, insulated_metal, "with bearing_heat.oil_share = "//number_text(heat%oil_share, 3)// &
+            & " the oil of "//name//" is "//number_text(shaft%rises(place(1), place(2)), 3)//" K warmer than the supply; "// &
+            & "its film conducts "//number_text(times, 2)//" times as much heat into the metal as the oil carries away: "// &
+            & "beside a housing in still air the oil has "//number_text(left_there(1), 2)//" of the heat left, beside metal "// &
+            & "as cold as the supply "//number_text(left_there(2), 2)//"; an oil_share between these is right, and friction "// &
+            & "larger", 1.0_wp/smallest)
       end associate
    end subroutine judge_metal
 
@@ -283,67 +287,68 @@ contains
 
    end subroutine judge_pins
 
-   !> Temperature at which oil and metal carry the friction of a bearing off, by bisection.
-   subroutine warm_bearing(solved, cold_journal, eccentricity, cold, share, rise, part)
+   !> Temperature at which oil and metal carry the friction of a bearing off, by bisection, from a state of the bearing: that with
+   !> the oil of the supply, or one that is too warm.
+   subroutine warm_bearing(solved, journal, start, eccentricity, power, by_oil, by_metal, rise, share, part)
       !> The solved case
       type(solved_t), intent(in) :: solved
-      !> The bearing with the oil of the supply
-      type(journal_t), intent(in) :: cold_journal
-      !> Its eccentricity [-]; rise of the temperature with friction and flow there [K]
-      real(wp), intent(in) :: eccentricity, cold
-      !> Part of the heat that the oil carries away: in: with the flow there; out: with that at its temperature [-]
-      real(wp), intent(inout) :: share
+      !> The bearing as it is
+      type(journal_t), intent(in) :: journal
+      !> Rise of its temperature above that of the supply [K], its eccentricity [-], mean power of its friction [W]
+      real(wp), intent(in) :: start, eccentricity, power
+      !> Heat that its oil carries away, and that its metal takes [W/K]
+      real(wp), intent(in) :: by_oil, by_metal
       !> Rise that goes with friction and flow at its temperature [K]
       real(wp), intent(out) :: rise
-      !> Friction there over that with the oil of the supply [-]
-      real(wp), intent(out) :: part
+      !> Part of the heat that the oil carries away there, friction over that of the bearing as it is [-]
+      real(wp), intent(out) :: share, part
 
       ! No oil is so much warmer than its supply, and a rise below the least changes nothing worth a word [K]; steps, of which each
       ! halves what may be off: to 0.2 K
       real(wp), parameter :: largest = 200.0_wp, least = 2.0_wp
       integer, parameter :: steps = 10
       type(oil_t) :: oil
-      type(journal_t) :: journal
+      type(journal_t) :: other
       type(error_t), allocatable :: error
-      ! Bounds of the rise [K]; e/sqrt(1 - e^2) [-]; load, friction with the oil of the supply [N]; heat that oil and metal carry
-      ! off for each kelvin, and the oil alone, over what both do with the flow of that oil [-]
-      real(wp) :: low, high, t, load, friction, carried, by_oil
+      ! Bounds of the rise [K]; e/sqrt(1 - e^2) [-]; load, friction of the bearing as it is [N]; its viscosity [Pa s]; heat that the
+      ! oil carries away for each kelvin [W/K]
+      real(wp) :: low, high, t, load, friction, viscosity, carried
       integer :: i, status
 
-      rise = 0.0_wp
+      rise = start
       part = 1.0_wp
-      if (cold < least .or. .not. (eccentricity > 0.0_wp .and. eccentricity < 1.0_wp)) return
-      associate (case => solved%case)
-         t = eccentricity/sqrt((1.0_wp - eccentricity)*(1.0_wp + eccentricity))
-         associate (film => film_at(cold_journal, t))
-            load = cold_journal%unit_load*film%number
-         end associate
-         friction = film_friction(cold_journal, load, t)
-         low = 0.0_wp
-         high = min(cold, largest)
-         by_oil = share
-         carried = 1.0_wp
-         do i = 1, steps
-            rise = 0.5_wp*(low + high)
-            call get_oil(case%lubricant, case%operating_point%oil_temperature + rise, oil, error)
-            status = journal_without_film
-            if (.not. allocated(error)) then
-               journal = with_shear(cold_journal, oil%viscosity/solved%models(1)%oil%viscosity)
-               call find_tangent(journal, load, t, status)
-            end if
-            ! Hotter than laws of the oil or the bearing go
-            if (status /= journal_solved) then
-               high = rise
-               cycle
-            end if
-            part = film_friction(journal, load, t)/friction
-            by_oil = share*t/sqrt(1.0_wp + t**2)/eccentricity
-            carried = by_oil + 1.0_wp - share
-            if (rise*carried < cold*part) low = rise
-            if (rise*carried >= cold*part) high = rise
-         end do
-         share = by_oil/carried
+      share = by_oil/(by_oil + by_metal)
+      high = power/(by_oil + by_metal)
+      if (start > 0.0_wp) high = start
+      if (high < least .or. .not. (eccentricity > 0.0_wp .and. eccentricity < 1.0_wp)) return
+      t = eccentricity/sqrt((1.0_wp - eccentricity)*(1.0_wp + eccentricity))
+      associate (film => film_at(journal, t))
+         load = journal%unit_load*film%number
       end associate
+      friction = film_friction(journal, load, t)
+      viscosity = viscosity_at(solved, start)
+      low = 0.0_wp
+      high = min(high, largest)
+      carried = by_oil
+      do i = 1, steps
+         rise = 0.5_wp*(low + high)
+         call get_oil(solved%case%lubricant, solved%case%operating_point%oil_temperature + rise, oil, error)
+         status = journal_without_film
+         if (.not. allocated(error)) then
+            other = with_shear(journal, oil%viscosity/viscosity)
+            call find_tangent(other, load, t, status)
+         end if
+         ! Hotter than laws of the oil or the bearing go
+         if (status /= journal_solved) then
+            high = rise
+            cycle
+         end if
+         part = film_friction(other, load, t)/friction
+         carried = by_oil*t/sqrt(1.0_wp + t**2)/eccentricity
+         if (rise*(carried + by_metal) < power*part) low = rise
+         if (rise*(carried + by_metal) >= power*part) high = rise
+      end do
+      share = carried/(carried + by_metal)
    end subroutine warm_bearing
 
    !> Films of the lobe shape whose inlet would be heated the most: by the factor of Murch and Wilson (1975) for pure rolling at the

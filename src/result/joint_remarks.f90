@@ -84,8 +84,9 @@ contains
             call add_remark(remarks, thick_seal_oil, "the viscous drag of the stem seal takes "// &
                & number_text(100.0_wp*power/losses, 2)//" % of the follower's friction: it goes with the viscosity, "// &
                & number_text(ratio, 3)//" times stem_seal.reference_viscosity_Pa_s here, without limit, and is "// &
-               & number_text(seal%drag, 3)//" N s/m; a lip lifts off on its film, and a drag measured in oil as cold, or "// &
-               & "stem_seal.drag_follows = 'constant', is nearer to it", ratio)
+               & number_text(seal%drag, 3)//" N s/m; the drag of a lip on its film grows with about the root of the "// &
+               & "viscosity, to "//number_text(seal%drag/sqrt(ratio), 2)//" N s/m here; give that, or one measured in oil as "// &
+               & "cold, with stem_seal.drag_follows = 'constant'", ratio)
          end associate
       end associate
    end subroutine judge_seal

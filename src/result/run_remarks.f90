@@ -177,7 +177,7 @@ contains
                & "size, "//number_text(usual%finger_stiffness, 2)//" N/m of the finger and "// &
                & number_text(usual%pad_stiffness, 2)//" of its pad, its natural frequency is about "// &
                & number_text(frequency, 2)//" Hz, and its largest contact load an estimated "//number_text(factor, 3)// &
-               & " times that of the rigid one; &dynamics computes it", factor)
+               & " times that of the rigid one; &dynamics with that stiffness computes it", factor)
          end associate
       end do
    end subroutine judge_stiffness

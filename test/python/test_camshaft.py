@@ -227,7 +227,7 @@ def test_angles_that_do_not_begin_with_the_first_cam_are_refused(camroller, key)
     found = subprocess.run([camroller, "check", ROOT / "decks/three_cam_head.nml", "--set", f"cam_bearings.{key}=35, 120, 240"],
                            capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60, check=False)
     assert found.returncode == 3
-    assert f"'{key}' begins with 0, since its angles count from the first cam's" in found.stderr
+    assert f"'{key}' must begin with 0: its angles count from the first cam's" in found.stderr
 
 
 def test_a_remark_names_bearing_and_camshaft_of_a_thin_film(camroller, tmp_path):

@@ -37,7 +37,7 @@ def test_asperities_beside_the_dry_contact_are_told_as_the_solved_contact_has_th
     settings = (f"surface.cam_roughness_um={roughness}", f"surface.roller_roughness_um={roughness}",
                 f"operating_point.oil_temperature_degC={temperature}")
     text = remarks(camroller, tmp_path, *settings)
-    told = re.search(r"for (\d+) % of the cycle those beside it count as well, and all would carry about (\d+) % of the load there at the "
+    told = re.search(r"for (\d+) % of the cycle those beside it would carry load too, and all of them about (\d+) % of it at the "
                      r"same film, in the place of (\d+) %", text)
     assert told, text
     cycle, spread, strip = (int(number)/100 for number in told.groups())

@@ -97,6 +97,6 @@ def test_hot_oil_in_a_bearing_and_a_roller_slower_than_a_law_have_remarks(camrol
 """)
     slow = ["--set", "operating_point.oil_temperature_degC=95", "--set", "numerics.accuracy=1e-3"]
     text = done(camroller, "run", "deck.nml", "-o", "x.h5", *slow, folder=tmp_path).stderr
-    assert "all round below 0.01 m/s, the first speed of the table" in text
+    assert "all round below the first speed of the table of &boundary_law (0.01)" in text
     text = done(camroller, "run", "deck.nml", "-o", "x.h5", *slow, "--set", "boundary_law.speed_points_m_s=1e-4,1", folder=tmp_path).stderr
     assert "all round below" not in text

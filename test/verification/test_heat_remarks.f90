@@ -47,6 +47,7 @@ contains
          & test_pins), &
          new_unittest("remarks on a pin that rubs and is warm do not contradict each other", test_rubbing_pin), &
          new_unittest("bearings whose metal would pass no heat on give a remark, with a share that gives none", test_metal), &
+         new_unittest("what metal leaves to the oil is told alike of cold and of warm bearings", test_bounds), &
          new_unittest("the film that a remark expects with heat in the inlet is that with heat", test_inlets), &
          new_unittest("where one viscosity is given, a film 30 K warmer than the oil gives a remark", test_direct_oil), &
          new_unittest("of an error that falls again with the temperature the largest is named", test_return), &
@@ -156,6 +157,34 @@ contains
       if (allocated(error)) return
       call check(error, .not. any(result%remarks%kind == insulated_metal), remark_lines(result%remarks))
    end subroutine test_metal
+
+   !> The share of cold metal is the same whether it is told of a bearing without heat or of one that is far too warm.
+   subroutine test_bounds(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      real(wp) :: shares(2) ! [-]
+      integer :: k
+
+      call solve(points(6), case, result, error)
+      if (allocated(error)) return
+      k = findloc(result%remarks%kind, cool_bearings, 1)
+      call check(error, k > 0, "no remark on cold bearings")
+      if (allocated(error)) return
+      associate (text => result%remarks(k)%text)
+         read (text(index(text, "oil_share = ") + 12:index(text, " computes it for metal") - 1), *) shares(1)
+      end associate
+      case%bearing_heat = bearing_heat_t()
+      call run(case, result, error)
+      if (allocated(error)) return
+      k = findloc(result%remarks%kind, insulated_metal, 1)
+      call check(error, k > 0, "no remark on warm bearings")
+      if (allocated(error)) return
+      associate (text => result%remarks(k)%text)
+         read (text(index(text, "the supply ", back=.true.) + 11:index(text, "; an oil_share") - 1), *) shares(2)
+      end associate
+      call check(error, abs(shares(2)/shares(1) - 1.0_wp) < 0.25_wp, number_text(shares(2), 2)//" for "//number_text(shares(1), 2))
+   end subroutine test_bounds
 
    !> One bearing stands for all, and one eccentricity for a turn: within 15 %, where friction falls to between 6 and 32 %.
    subroutine test_bearings(error)
