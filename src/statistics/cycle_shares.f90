@@ -190,6 +190,8 @@ contains
          load = model%boundary%constants%load_factor*contact%apparent_area*spread_load(model%boundary%constants, &
             & contact%film_central/contact%surfaces%roughness, contact%surfaces%roughness*state%position%equivalent_radius &
             & /contact%half_width**2)
+         ! There is no gain then, and may be no load at all beside asperities that carry all of it
+         if (load <= contact%asperity_load) return
          gain = load/(load + contact%load - contact%asperity_load) - contact%asperity_load/contact%load
          if (gain <= part_gain_allowed) return
          shares%outer_share = shares%outer_share + fraction
