@@ -63,7 +63,7 @@ module camroller_remarks
       & "group left out of contacts", "film of a light load not solved", "places too far apart", &
       & "boundary law held at its bound", "heat left out of bearings", "heat left out of films", "hours not accurate", &
       & "boundary law far from its points", "heat left out of the pin", "friction of a joint is spent", &
-      & "seal in oil far from its reference", "asperities beside the strip", "metal passes no heat on"]
+      & "seal in far thicker oil", "asperities beside the strip", "metal passes no heat on"]
 
    !> One remark
    type :: remark_t
