@@ -32,7 +32,7 @@ module camroller_remarks
    !> roughness [-], part of the cycle [%], part of the sinking that is more than the lash [-], none, part of
    !> the cycle [%], miss over the largest [-], none, viscosity over that of the warm oil [-], film over that with heat [-],
    !> error [-], way beyond the points [K], viscosity over that of the warm oil [-], part of the cycle [%], viscosity over that of
-   !> the seal's drag [-], mean gain of a part of the load [-], viscosity with metal that passes heat on over that without [-]
+   !> the seal's drag [-], mean gain of a part of the load [-], friction with metal that passes heat on over that without [-]
    integer, parameter :: lost_contact = 1, outside_range = 2, unresolved_slip = 3, standing_entrainment = 4, open_pivot = 5, &
       & pumped_adjuster = 6, missed_accuracy = 7, missed_means = 8, loose_tolerance = 9, missing_profiles = 10, &
       & missed_extremes = 11, no_period = 12, long_period = 13, relieved_spring = 14, film_without_limit = 15, &

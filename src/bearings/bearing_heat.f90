@@ -42,7 +42,8 @@ module camroller_bearing_heat
    !> Width over diameter to which the side flow is known, but for short bearings [-]
    real(wp), parameter :: widest = 1.0_wp
    !> Heat that the metal of a bearing passes on at the least, over the journal's surface in it: 20 W/(m^2 K) into air that hardly
-   !> moves, from a housing of some 15 B D (usual values for bearings that their housing cools, ISO 7902-1) [W/(m^2 K)]
+   !> moves, from a housing of some 15 B D (usual values for bearings that their housing cools, as in ISO 7902-1: recalled, not
+   !> compared with it) [W/(m^2 K)]
    real(wp), parameter :: least_transfer = 100.0_wp
    !> What to say where it is not
    character(len=*), parameter :: flow_advice = "the heat balance of camshaft bearings knows the oil that leaves at the sides "// &

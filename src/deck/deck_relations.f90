@@ -437,7 +437,7 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      !> The list [rad], angle of the first cam that is none [rad]
+      !> The list [rad]; sine of half the first angle that is rounding of whole turns [-]
       real(wp), allocatable :: numbers(:)
       real(wp), parameter :: rounding = 1.0e-12_wp
       integer, allocatable :: integers(:)

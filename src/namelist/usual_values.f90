@@ -137,7 +137,6 @@ module camroller_usual_values
       usual_t("bearing_asperity.roughness_product", 0.01_wp, 0.15_wp), &
       usual_t("bearing_asperity.roughness_over_tip_radius", 1.0e-5_wp, 0.1_wp), &
       usual_t("bearing_heat.heat_capacity_J_kg_K", 1500.0_wp, 2700.0_wp), &
-      usual_t("bearing_heat.oil_share", 0.0_wp, 1.0_wp), &
       usual_t("belt_pull.force_N", 0.0_wp, 5000.0_wp), &
       usual_t("belt_pull.position_mm", -3000.0_wp, 3000.0_wp), &
       usual_t("shaft_drag.speed_points_rpm", 0.0_wp, 10000.0_wp), &

@@ -161,7 +161,7 @@ contains
    end function oil_conductivity
 
    !> Bearings of the camshaft whose heat goes into the oil, by `oil_share`, where metal cannot but take most of it: the one whose
-   !> viscosity that changes the most.
+   !> friction grows the most with the part that a housing in still air takes.
    subroutine judge_metal(solved, films, result)
       !> The solved case, with temperatures of its bearings
       type(solved_t), intent(in) :: solved
@@ -214,7 +214,7 @@ contains
       end associate
    end subroutine judge_metal
 
-   !> Viscosity at a rise of the temperature above that of the supply, at which the case is solved.
+   !> Viscosity of the oil at a rise of its temperature above that of the supply; that of the supply where the oil has none there.
    function viscosity_at(solved, rise) result(viscosity)
       !> The solved case
       type(solved_t), intent(in) :: solved

@@ -158,7 +158,9 @@ contains
       call check(error, .not. any(result%remarks%kind == insulated_metal), remark_lines(result%remarks))
    end subroutine test_metal
 
-   !> The share of cold metal is the same whether it is told of a bearing without heat or of one that is far too warm.
+   !> The share of cold metal is the same whether it is told of a bearing without heat or of one that is far too warm, to what one
+   !> eccentricity for a turn leaves: the oil carries a quarter more or less. With the flow of the warm bearing it was ten times
+   !> as large.
    subroutine test_bounds(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
