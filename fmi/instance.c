@@ -23,7 +23,7 @@ static const char *const words[KINDS] = {
    "smallest_torque_drive", "largest_torque_drive", "estimated_error", "series"
 };
 
-enum { KEY_ROOM = 96, PATH_ROOM = 4096, LINE_ROOM = 256, NUMBER_ROOM = 32, MESSAGE_ROOM = 1024 };
+enum { KEY_ROOM = 96, PATH_ROOM = 4096, LINE_ROOM = 256, NUMBER_ROOM = 32, MESSAGE_ROOM = 1024, KIND_ROOM = 64, KINDS_ROOM = 16 };
 
 typedef struct {
    enum kind kind;
@@ -47,7 +47,8 @@ struct instance {
    int cams;
    double *pressures, *row; /* room for pressures of all cams, and for the numbers of one */
    size_t row_room;
-   int is_told[2]; /* of inputs that do not count */
+   int is_told[2];                      /* of inputs that do not count */
+   char told[KINDS_ROOM][KIND_ROOM]; /* kinds of remarks on steps that have been told */
    state now;
    camroller_error error;
 };
@@ -152,6 +153,7 @@ int instance_reset(instance *self) {
    self->now.shaft = NULL;
    self->now.time = 0.0;
    memset(self->is_told, 0, sizeof self->is_told);
+   memset(self->told, 0, sizeof self->told);
    set_starts(self);
    return 1;
 }
@@ -313,6 +315,19 @@ static void tell_unused(instance *self) {
    }
 }
 
+/* Tell of each kind of remark on steps once, with its first remark. */
+static void tell_remarks(instance *self) {
+   char kind[MESSAGE_ROOM], words[MESSAGE_ROOM];
+   char *const texts[2] = {kind, words};
+   for (size_t number = 0; camroller_shaft_remark(self->now.shaft, number, texts, MESSAGE_ROOM, NULL) == 0; number++) {
+      int place = 0;
+      while (place < KINDS_ROOM && self->told[place][0] != 0 && strncmp(self->told[place], kind, KIND_ROOM - 1) != 0) place++;
+      if (place == KINDS_ROOM || self->told[place][0] != 0) continue;
+      strncpy(self->told[place], kind, KIND_ROOM - 1);
+      self->tell(self->who, 0, words);
+   }
+}
+
 int instance_step(instance *self, double time, double length) {
    camroller_shaft_outcome outcome = {.size = sizeof outcome};
    camroller_inputs start = {.size = sizeof start}, end = {.size = sizeof end};
@@ -344,6 +359,7 @@ int instance_step(instance *self, double time, double length) {
                                          &self->error)))
       return 0;
    self->now.time = time + length;
+   tell_remarks(self);
    return take_outputs(self, &outcome);
 }
 

@@ -21,6 +21,7 @@ HIDDEN int instance_set(instance *self, unsigned number, double value);
 /* The end of the initialisation: the case is made of the parameters, its followers are put at their start. Remarks on its deck are
  * told. */
 HIDDEN int instance_start(instance *self, double time);
+/* Remarks on steps are told once of each kind. */
 HIDDEN int instance_step(instance *self, double time, double length);
 /* Say that something cannot be. */
 HIDDEN int instance_refuse(instance *self, const char *message);

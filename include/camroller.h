@@ -141,6 +141,11 @@ int camroller_simulation_step(camroller_simulation *self, double cam_angle, cons
 /* Number at the end of the last step that did not fail, by the name of a follower's series, or of a series of the case's torques by
  * source, for this follower's part of it */
 int camroller_simulation_value(const camroller_simulation *self, const char *name, double *value, camroller_error *error);
+/* Remark `number`, from 0, on the last step: contact lost, laws outside their ranges, films too thin for them. Two buffers of `room`
+ * characters, either or both NULL, for the name of its kind, the same in every step, and for its words. CAMROLLER_USAGE tells that
+ * there are no more; most steps have none. */
+int camroller_simulation_remark(const camroller_simulation *self, size_t number, char *const texts[2], size_t room,
+                                camroller_error *error);
 double camroller_simulation_angle(const camroller_simulation *self);
 /* The engine has stopped: the roller comes to rest, and the next step starts without spin; a flexible train comes to rest. */
 int camroller_simulation_halt(camroller_simulation *self, camroller_error *error);
@@ -172,7 +177,9 @@ typedef struct {
    double mean_torque_bearings, torque_bearings; /* the part of that for the camshaft bearings [N m] */
    /* of all followers by source, as in camroller_outcome [N m] */
    double mean_torques[5], torques[5];
-   double extreme_torque[2]; /* smallest and largest torque that drives, at angles a degree apart or less [N m] */
+   /* smallest and largest torque that drives, at angles a degree apart or less; narrow peaks between them are seen with one cam and
+    * no bearings alone, and in what camroller_shaft_follower gives of each cam [N m] */
+   double extreme_torque[2];
    double estimated_error;   /* of the mean torque that drives, as in camroller_outcome [N m] */
    /* of all followers, as in camroller_outcome, and the seals and the drive of the camshafts (&shaft_drag) [N m] */
    double mean_torque_others, torque_others;
@@ -191,6 +198,8 @@ int camroller_shaft_value(const camroller_shaft *self, int cam, const char *name
 int camroller_shaft_values(const camroller_shaft *self, int cam, double *values, size_t room, camroller_error *error);
 int camroller_shaft_quantity(const camroller_shaft *self, int cam, size_t number, char *const texts[3], size_t room,
                              camroller_error *error);
+/* As camroller_simulation_remark, of all cams and of the bearings at the end of the step; one on a cam begins with its number */
+int camroller_shaft_remark(const camroller_shaft *self, size_t number, char *const texts[2], size_t room, camroller_error *error);
 double camroller_shaft_angle(const camroller_shaft *self);
 int camroller_shaft_halt(camroller_shaft *self, camroller_error *error);
 int camroller_shaft_copy(const camroller_shaft *self, camroller_shaft **out, camroller_error *error);

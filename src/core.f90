@@ -41,15 +41,16 @@ module camroller_core ! style: private because it gives on all that it uses
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_text_lines, only : line_t
    use camroller_run, only : run_case
+   use camroller_remarks, only : remark_t, remark_names
    use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
    use camroller_saved_simulation, only : save_simulation, restore_simulation, save_shaft, restore_shaft
    use camroller_shaft_simulation, only : shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, &
-      & cam_number, cam_place, shaft_angle, shaft_series, shaft_values
+      & cam_number, cam_place, shaft_angle, shaft_series, shaft_values, list_shaft_remarks
    use camroller_torque_list, only : torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
       & of_damping, of_bearings, of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, &
       & of_gas_damping, of_residual
    use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, &
-      & simulation_angle, simulation_series, simulation_values
+      & simulation_angle, simulation_series, simulation_values, list_step_remarks
    implicit none
    public
 

@@ -188,8 +188,9 @@ static void test_simulation(const camroller_case *self) {
    camroller_simulation *simulation = NULL, *copy = NULL, *restored = NULL;
    camroller_inputs start = inputs(30.0), end = inputs(31.0), wrong = inputs(0.0), pressed = inputs(31.0);
    camroller_outcome outcome = {.size = sizeof outcome}, small = {.size = 8};
+   char kind[64], sentence[64], *texts[2] = {kind, sentence};
    double value, sums[3];
-   size_t bytes = camroller_simulation_save_size();
+   size_t bytes = camroller_simulation_save_size(), count = 0;
    char *block = malloc(bytes);
    REFUSED(CAMROLLER_USAGE, "'camroller_case'", camroller_simulation_new, NULL, 1, 0.0, &simulation);
    REFUSED(CAMROLLER_USAGE, "'out'", camroller_simulation_new, self, 1, 0.0, NULL);
@@ -208,7 +209,17 @@ static void test_simulation(const camroller_case *self) {
    CHECK(camroller_simulation_value(simulation, "torque_contact", &value, &error) == 0 && value == outcome.torques[1] && value > 0.0);
    REFUSED(CAMROLLER_USAGE, "torque_tip", camroller_simulation_value, simulation, "torque_tip", &value);
    REFUSED(CAMROLLER_USAGE, "torque_drive", camroller_simulation_value, simulation, "torque_drive", &value);
+   for (size_t i = 0; camroller_simulation_remark(simulation, i, texts, sizeof kind, NULL) == 0; i++)
+      CHECK(strcmp(kind, "oil far from its points") != 0);
+   end.oil_temperature = 390.0;
    CHECK(camroller_simulation_step(simulation, 1.2, &start, &end, NULL, NULL) == 0);
+   end.oil_temperature = start.oil_temperature;
+   for (size_t i = 0; camroller_simulation_remark(simulation, i, texts, sizeof kind, &error) == 0; i++)
+      if (strcmp(kind, "oil far from its points") == 0 && strstr(sentence, "oil temperature, 116.85 degC") != NULL) count++;
+   CHECK(count == 1 && error.code == CAMROLLER_USAGE);
+   CHECK(camroller_simulation_remark(simulation, 0, NULL, 0, &error) == 0);
+   REFUSED(CAMROLLER_USAGE, "number", camroller_simulation_remark, simulation, SIZE_MAX, texts, 10);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_remark, NULL, 0, texts, 10);
    REFUSED(CAMROLLER_USAGE, "grow", camroller_simulation_step, simulation, 1.2, &start, &end, &outcome);
    REFUSED(CAMROLLER_USAGE, "speed", camroller_simulation_step, simulation, 1.3, &wrong, &end, &outcome);
    wrong.size = 1;
@@ -334,7 +345,7 @@ static void turn(camroller_shaft *self, double *sum) {
 
 static void test_shaft(const char *path, const camroller_case *other) {
    camroller_case *self = NULL;
-   camroller_shaft *shaft = NULL, *copy = NULL, *restored = NULL;
+   camroller_shaft *shaft = NULL, *copy = NULL, *restored = NULL, *hot = NULL;
    camroller_inputs start = inputs(30.0), end = inputs(31.0), wrong = inputs(-1.0);
    camroller_shaft_outcome outcome = {.size = sizeof outcome}, small = {.size = 8};
    camroller_outcome follower = {.size = sizeof follower};
@@ -375,6 +386,22 @@ static void test_shaft(const char *path, const camroller_case *other) {
    REFUSED(CAMROLLER_USAGE, "cam 9", camroller_shaft_follower, shaft, 9, &follower);
    REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_follower, NULL, 1, &follower);
    REFUSED(CAMROLLER_USAGE, "'outcome'", camroller_shaft_follower, shaft, 1, NULL);
+   count = 0;
+   for (size_t i = 0; camroller_shaft_remark(shaft, i, texts, sizeof name, NULL) == 0; i++)
+      if (strcmp(name, "oil far from its points") == 0) count++;
+   CHECK(count == 0);
+   CHECK(camroller_shaft_copy(shaft, &hot, &error) == 0);
+   start.oil_temperature = end.oil_temperature = 440.0;
+   CHECK(camroller_shaft_step(hot, 1.21, &start, &end, NULL, NULL, &error) == 0);
+   start.oil_temperature = end.oil_temperature = wrong.oil_temperature;
+   for (size_t i = 0; camroller_shaft_remark(hot, i, texts, sizeof name, &error) == 0; i++)
+      if (strcmp(name, "oil far from its points") == 0 && strstr(unit, "oil temperature, 166.85") != NULL) count++;
+   CHECK(count == 1 && error.code == CAMROLLER_USAGE);
+   CHECK(camroller_shaft_remark(hot, 0, NULL, 0, &error) == 0);
+   CHECK(camroller_shaft_remark(hot, 0, nothing, 0, &error) == 0);
+   camroller_shaft_free(hot);
+   REFUSED(CAMROLLER_USAGE, "number", camroller_shaft_remark, shaft, SIZE_MAX, texts, 10);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_remark, NULL, 0, texts, 10);
    for (int which = 0; which <= 3; which += 3) {
       CHECK(camroller_shaft_values(shaft, which, values, 100, &error) == 0);
       for (count = 0; camroller_shaft_quantity(shaft, which, count, texts, sizeof name, NULL) == 0; count++)

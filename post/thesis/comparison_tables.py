@@ -167,9 +167,10 @@ def fixed_step(runs):
                 f"{10.0 * round(10.0 * points.share('bearings')[2, 0]):.0f} % of it at 900 rev/min and 25 °C, needle "
                 f"bearing {100.0 * points.share('needle').min():.0f} to {100.0 * points.share('needle').max():.0f} "
                 "%.", "",
-                "Claims that hold with this step and not with an accurate integration:", "",
+                "Claims that hold with this step and not with an accurate integration, in one build; another, which "
+                "rounds differently, may have a few others:", "",
                 *(f"- {words}" for words in gained or ["none"]), "",
-                "Claims that no longer hold with it:", "", *(f"- {words}" for words in lost or ["none"]), "",
+                "Claims that no longer hold with it, in that build:", "", *(f"- {words}" for words in lost or ["none"]), "",
                 "\"Areas of high slip followed at once by very low slip\", which the source reports, are what such a "
                 "step gives. Some of its shares and trends are thus those of the step; others hold by chance, and a "
                 "step of one degree does not reproduce its figures either: how it stepped remains open.", ""]

@@ -17,7 +17,7 @@ from ._library import (LIBRARY, Cam, CamrollerError, ConvergenceError, DeckError
                        ShaftOutcome, UsageError, byref, call, encoded, list_remarks, list_texts)
 
 __all__ = ["Cam", "CamrollerError", "Case", "ConvergenceError", "DeckError", "DomainError", "FileError", "Inputs", "Outcome",
-           "Quantity", "Result", "Shaft", "ShaftOutcome", "Simulation", "UsageError", "run", "run_cases", "__version__"]
+           "Quantity", "Remark", "Result", "Shaft", "ShaftOutcome", "Simulation", "UsageError", "run", "run_cases", "__version__"]
 
 
 def _version():
@@ -27,6 +27,17 @@ def _version():
 
 
 __version__ = _version()
+
+
+class Remark(str):
+    """A sentence on a step, and the name of its `kind`, the same in every step."""
+
+    __slots__ = ("kind",)
+
+    def __new__(cls, kind, words):
+        remark = super().__new__(cls, words)
+        remark.kind = kind
+        return remark
 
 
 class Quantity(tuple):
@@ -283,6 +294,11 @@ class _Stepped(Handle):
     def angle(self):
         """Present cam angle [rad]."""
         return getattr(LIBRARY, f"camroller_{self._kind}_angle")(self._pointer)
+
+    @property
+    def remarks(self):
+        """Remarks on the last step, a list of `Remark`, mostly empty: contact lost, laws outside their ranges, films too thin for them."""
+        return [Remark(*texts) for texts in list_texts(f"{self._kind}_remark", 2, self._pointer)]
 
     def halt(self):
         """The engine has stopped: rollers come to rest, and the next step starts without spin."""

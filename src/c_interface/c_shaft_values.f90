@@ -1,15 +1,16 @@
 !> What a shaft has to say of its cams and of its last step, for C: `include/camroller.h` says what each call does.
 !>
-!> In: a shaft, a cam, names or places of numbers. Out: numbers, names, units, meanings.
+!> In: a shaft, a cam, names or places of numbers. Out: numbers, names, units, meanings, remarks.
 module camroller_c_shaft_values
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_number_text, only : integer_text
+   use camroller_remarks, only : remark_t
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_shaft_simulation, only : cam_number, cam_place, shaft_values
+   use camroller_shaft_simulation, only : cam_number, cam_place, list_shaft_remarks, shaft_values
    use camroller_c_shaft, only : shaft_handle_t
-   use camroller_c_structs, only : check_outcome, give_outcome, give_quantity, refuse_size, torque_row
+   use camroller_c_structs, only : check_outcome, give_outcome, give_quantity, give_remark, refuse_size, torque_row
    use camroller_c_texts, only : take_text, give_error, refuse_null, has_place
    implicit none
    private
@@ -240,6 +241,35 @@ contains
       if (.not. allocated(failure)) call give_quantity(quantity, texts, rooms)
       call give_error(failure, error, code)
    end function shaft_quantity
+
+   !> Remark on the last step, by its number.
+   function shaft_remark(handle, number, texts, room, error) bind(C, name="camroller_shaft_remark") result(code)
+      !> The shaft
+      type(c_ptr), value, intent(in) :: handle
+      !> The number, from 0
+      integer(c_size_t), value, intent(in) :: number
+      !> Buffers for the name of its kind and its words; NULL, each or both, takes nothing
+      type(c_ptr), intent(in), optional :: texts(2)
+      !> Size of each
+      integer(c_size_t), value, intent(in) :: room
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(shaft_handle_t), pointer :: given
+      type(remark_t), allocatable :: remarks(:)
+      type(error_t), allocatable :: failure
+
+      call refuse_null(handle, "camroller_shaft", failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(handle, given)
+         allocate (remarks(0))
+         if (given%last > 0) call list_shaft_remarks(given%shaft, given%outcomes(given%last), remarks)
+         call give_remark(remarks, number, texts, room, failure)
+      end if
+      call give_error(failure, error, code)
+   end function shaft_remark
 
    !> Refuse a cam that the shaft has not.
    subroutine check_cam(given, cam, smallest, error)

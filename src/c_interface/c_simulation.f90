@@ -8,12 +8,14 @@ module camroller_c_simulation
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_case, only : case_t
    use camroller_catalogue, only : follower_count, list_series
+   use camroller_remarks, only : remark_t
    use camroller_result, only : quantity_t, find_quantity
    use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, get_values, &
-      & angle_of => simulation_angle
+      & list_step_remarks, angle_of => simulation_angle
    use camroller_saved_simulation, only : save_simulation, restore_simulation, block_size
    use camroller_c_case, only : case_handle_t
-   use camroller_c_structs, only : clear_place, take_inputs, check_outcome, give_outcome, give_address, give_bytes, torque_row
+   use camroller_c_structs, only : clear_place, take_inputs, check_outcome, give_outcome, give_address, give_bytes, give_remark, &
+      & torque_row
    use camroller_c_texts, only : take_text, give_error, refuse_null
    implicit none
    private
@@ -199,6 +201,34 @@ contains
       end if
       call give_error(failure, error, code)
    end function simulation_value
+
+   !> Remark on the last step, by its number.
+   function simulation_remark(handle, number, texts, room, error) bind(C, name="camroller_simulation_remark") result(code)
+      !> The follower
+      type(c_ptr), value, intent(in) :: handle
+      !> The number, from 0
+      integer(c_size_t), value, intent(in) :: number
+      !> Buffers for the name of its kind and its words; NULL, each or both, takes nothing
+      type(c_ptr), intent(in), optional :: texts(2)
+      !> Size of each
+      integer(c_size_t), value, intent(in) :: room
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(simulation_handle_t), pointer :: given
+      type(remark_t), allocatable :: remarks(:)
+      type(error_t), allocatable :: failure
+
+      call refuse_null(handle, "camroller_simulation", failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(handle, given)
+         call list_step_remarks(given%simulation, given%case, given%outcome, remarks)
+         call give_remark(remarks, number, texts, room, failure)
+      end if
+      call give_error(failure, error, code)
+   end function simulation_remark
 
    !> Cam angle of a follower; 0 for NULL.
    function simulation_angle(handle) bind(C, name="camroller_simulation_angle") result(angle)

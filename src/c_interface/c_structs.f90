@@ -6,16 +6,17 @@ module camroller_c_structs
       & c_size_t
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_error, only : error_t, raise, kind_usage
+   use camroller_remarks, only : remark_t, remark_names
    use camroller_result, only : quantity_t
    use camroller_simulation, only : outcome_t, inputs_t
    use camroller_torque_list, only : is_torque, of_bearings, of_contact, of_geometric, of_guide, of_needle, of_roller_inertia, &
       & of_shaft_drag, torque_count, torque_series
-   use camroller_c_texts, only : give_text, refuse_null
+   use camroller_c_texts, only : give_text, has_place, refuse_null
    implicit none
    private
 
-   public :: listed_torques, take_inputs, check_outcome, give_outcome, give_quantity, give_bytes, other_torque, &
-      & torque_row, refuse_size, give_address, clear_place
+   public :: listed_torques, take_inputs, check_outcome, give_outcome, give_quantity, give_bytes, give_remark, &
+      & other_torque, torque_row, refuse_size, give_address, clear_place
 
    !> Torques in the order of the structs
    integer, parameter :: listed_torques(*) = [of_geometric, of_contact, of_needle, of_guide, of_roller_inertia]
@@ -191,6 +192,29 @@ contains
       call give_text(quantity%unit, texts(2), room)
       call give_text(quantity%description, texts(3), room)
    end subroutine give_quantity
+
+   !> Fill a caller's buffers with a remark on a step, by its number.
+   subroutine give_remark(remarks, number, texts, room, error)
+      !> All remarks on the step
+      type(remark_t), intent(in) :: remarks(:)
+      !> The number, from 0
+      integer(c_size_t), intent(in) :: number
+      !> Buffers for the name of its kind and its words; NULL, each or both, takes nothing
+      type(c_ptr), intent(in), optional :: texts(2)
+      !> Size of each
+      integer(c_size_t), intent(in) :: room
+      !> Usage error where there is none of that number
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. has_place(number, size(remarks))) then
+         call raise(error, kind_usage, "there is no remark of that number")
+      else if (present(texts)) then
+         associate (remark => remarks(number + 1))
+            call give_text(trim(remark_names(remark%kind)), texts(1), room)
+            call give_text(remark%text, texts(2), room)
+         end associate
+      end if
+   end subroutine give_remark
 
    !> Fill a caller's buffer with what is saved.
    subroutine give_bytes(bytes, address, room, asked, error)

@@ -1,7 +1,8 @@
 !> Remarks on the bearings of a camshaft: widths that their law is not for, films too thin for it, orbits beyond its fit; on the
 !> width of a roller's bearing on its pin.
 !>
-!> In: a solved case, the smallest film of each bearing at the angles of the means. Out: remarks, one line of each kind.
+!> In: a solved case, the smallest film of each bearing at the angles of the means; or the bearings at the end of a host's step.
+!> Out: remarks, one line of each kind.
 module camroller_bearing_remarks
    use camroller_kinds, only : wp, two_pi
    use camroller_bearing_asperity, only : bearing_state_t, thinnest_smooth_film
@@ -13,12 +14,12 @@ module camroller_bearing_remarks
    use camroller_needle, only : kind_journal, roller_bearing_names
    use camroller_number_text, only : counted, integer_text, number_text
    use camroller_remarks, only : remark_t, add_remark, bearing_width, orbit_out_of_range, rubbing_bearing
-   use camroller_shaft, only : bearing_number, has_orbits, shaft_torques, solved_t
+   use camroller_shaft, only : bearing_number, has_orbits, shaft_t, shaft_torques, solved_t
    use camroller_torque_list, only : torque_count
    implicit none
    private
 
-   public :: judge_bearings, name_bearing
+   public :: judge_bearings, judge_step_bearings, name_bearing
 
    !> Film below which usual surfaces touch: the roughness of a ground journal, 0.2 um, and of a bored bearing, 0.4 um, together [m]
    real(wp), parameter :: usual_roughness = 0.5e-6_wp
@@ -32,7 +33,7 @@ module camroller_bearing_remarks
    type :: thin_films_t
       !> The limit, zero where there is none, and the smallest film [m]
       real(wp) :: limit = 0.0_wp, smallest = huge(1.0_wp)
-      !> Part of the turn for which the bearing with the smallest film is below the limit [-]
+      !> Part of the turn for which the bearing with the smallest film is below the limit; zero where there is one angle alone [-]
       real(wp) :: share = 0.0_wp
       !> That bearing, in words, and how many others are below as well
       character(len=:), allocatable :: bearing
@@ -59,8 +60,7 @@ contains
       call judge_widths(solved, remarks)
       if (.not. allocated(solved%shaft%bearings)) return
       associate (bearings => solved%shaft%bearings, shaft => solved%shaft)
-         films(1)%limit = usual_roughness
-         if (allocated(shaft%touch)) films(1)%limit = thinnest_smooth_film*shaft%touch%roughness
+         films(1)%limit = smooth_limit(shaft)
          if (has_orbits(solved%case) .and. moves_like_finite(shaft%journal)) films(2)%limit = (1.0_wp - largest_fitted) &
             & *bearings%radial_clearance
          if (.not. any(samples%values(:, :samples%count) < near*maxval(films%limit))) return
@@ -74,6 +74,38 @@ contains
             & films(2)%limit/films(2)%smallest)
       end associate
    end subroutine judge_bearings
+
+   !> Remark on the thinnest film of all bearings at the end of a step.
+   subroutine judge_step_bearings(shaft, bearings, remarks)
+      !> The camshafts
+      type(shaft_t), intent(in) :: shaft
+      !> Their bearings at the end of the step, shape (bearing, camshaft)
+      type(bearing_state_t), intent(in) :: bearings(:, :)
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      type(thin_films_t) :: films
+      integer :: place(2)
+
+      films%limit = smooth_limit(shaft)
+      films%smallest = minval(bearings%film)
+      if (films%smallest >= films%limit) return
+      place = minloc(bearings%film)
+      films%others = count(bearings%film < films%limit) - 1
+      call name_bearing(place(1), place(2), size(bearings, 2), films%bearing)
+      call add_rubbing(films, allocated(shaft%touch), remarks)
+   end subroutine judge_step_bearings
+
+   !> Film below which the law of the bearings leaves out what asperities carry.
+   pure function smooth_limit(shaft) result(limit)
+      !> The camshafts
+      type(shaft_t), intent(in) :: shaft
+      !> The limit [m]
+      real(wp) :: limit
+
+      limit = usual_roughness
+      if (allocated(shaft%touch)) limit = thinnest_smooth_film*shaft%touch%roughness
+   end function smooth_limit
 
    !> Say which bearings of a case, those of its camshaft or the pin of its roller, have a width that their law is not for.
    subroutine judge_widths(solved, remarks)
@@ -123,7 +155,7 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      character(len=:), allocatable :: unit, consequence
+      character(len=:), allocatable :: unit, consequence, share
       ! What films are stated in [m]
       real(wp) :: scale
 
@@ -137,9 +169,11 @@ contains
          unit = " um"
          consequence = "; usual surfaces touch there, which &bearing_asperity would count"
       end if
+      share = ""
+      if (films%share > 0.0_wp) share = " for "//number_text(100.0_wp*films%share, 2)//" % of the turn"
       call add_remark(remarks, rubbing_bearing, "the film of "//films%bearing//" goes down to "// &
-         & number_text(films%smallest/scale, 2)//unit//", below "//number_text(films%limit/scale, 2)//" for "// &
-         & number_text(100.0_wp*films%share, 2)//" % of the turn"//consequence//others_in_words(films), films%limit/films%smallest)
+         & number_text(films%smallest/scale, 2)//unit//", below "//number_text(films%limit/scale, 2)//share//consequence// &
+         & others_in_words(films), films%limit/films%smallest)
    end subroutine add_rubbing
 
    !> Which films are below limits, and for how long.

@@ -28,6 +28,8 @@ module camroller_oil_checks
    type :: rises_t
       !> In a camshaft bearing, between cam and roller [K]
       real(wp) :: bearing = 0.0_wp, film = 0.0_wp
+      !> Of the surfaces of cam and roller where asperities touch [K]
+      real(wp) :: surface = 0.0_wp
    end type rises_t
 
    !> Film and surfaces over a cycle
@@ -83,9 +85,11 @@ contains
    end subroutine compare_hths
 
    !> How far temperatures of a case's oil are beyond those at which its laws are given, and which of them is the farthest off.
-   subroutine find_far_points(case, rises, distance, words)
+   subroutine find_far_points(case, temperature, rises, distance, words)
       !> The case
       type(case_t), intent(in) :: case
+      !> Temperature of its oil [K]
+      real(wp), intent(in) :: temperature
       !> Rises above the temperature of its oil
       type(rises_t), intent(in) :: rises
       !> Way beyond the points, 0 where none is far [K]
@@ -102,7 +106,7 @@ contains
 
       distance = 0.0_wp
       words = ""
-      associate (lubricant => case%lubricant, temperature => case%operating_point%oil_temperature)
+      associate (lubricant => case%lubricant)
          viscosity = "the viscosity"
          call get_oil(lubricant, temperature, oil, failure)
          if (.not. allocated(failure)) viscosity = viscosity//", "//number_text(1.0e3_wp*oil%viscosity, 3)//" mPa s,"
@@ -126,19 +130,19 @@ contains
          !> Temperatures of the points, increasing; way beyond them that is far [K]
          real(wp), intent(in) :: points(:), far
 
-         associate (temperature => case%operating_point%oil_temperature)
-            call look_at(points, far, temperature, around, viscosity//passing, distance, words)
-            call look_at(points, far, temperature + rises%bearing, bearing, "the viscosity there"//passing, distance, words)
-            call look_at(points, far, temperature + rises%film, film, "the viscosity there"//passing, distance, words)
-         end associate
+         call look_at(points, far, temperature, around, viscosity//passing, distance, words)
+         call look_at(points, far, temperature + rises%bearing, bearing, "the viscosity there"//passing, distance, words)
+         call look_at(points, far, temperature + rises%film, film, "the viscosity there"//passing, distance, words)
       end subroutine look_at_viscosity
 
    end subroutine find_far_points
 
    !> How far the temperature of a case's oil, or of its surfaces, is beyond the table of the boundary coefficient.
-   subroutine find_far_table(case, rise, distance, words)
+   subroutine find_far_table(case, temperature, rise, distance, words)
       !> The case
       type(case_t), intent(in) :: case
+      !> Temperature of its oil [K]
+      real(wp), intent(in) :: temperature
       !> Largest rise of the surfaces' temperature above that of the oil where asperities touch; zero where it is not known [K]
       real(wp), intent(in) :: rise
       !> Way beyond the table, 0 where it is not far [K]
@@ -152,7 +156,7 @@ contains
       distance = 0.0_wp
       words = ""
       if (.not. allocated(case%boundary_law)) return
-      associate (law => case%boundary_law, temperature => case%operating_point%oil_temperature)
+      associate (law => case%boundary_law)
          if (law%law /= boundary_law_names(boundary_table) .or. .not. allocated(law%temperature_points)) return
          call look_at(law%temperature_points, far_from_points, temperature, "the oil temperature", nearest, distance, words)
          call look_at(law%temperature_points, far_from_points, temperature + rise, "the temperature of cam and roller where "// &
@@ -185,9 +189,11 @@ contains
 
    !> Say that a pressure-viscosity coefficient is estimated where the formula has no sense left: that of an oil falls as its
    !> temperature rises, and the formula's has a largest value somewhere in the cold, below which it falls as the oil gets colder.
-   subroutine judge_estimate(case, distance, words)
+   subroutine judge_estimate(case, temperature, distance, words)
       !> The case
       type(case_t), intent(in) :: case
+      !> Temperature of its oil [K]
+      real(wp), intent(in) :: temperature
       !> How far the oil is colder than where the estimate is largest, 0 where it is not colder [K]
       real(wp), intent(out) :: distance
       !> The same in words; blank where it is not
@@ -203,24 +209,22 @@ contains
 
       distance = 0.0_wp
       words = ""
-      associate (temperature => case%operating_point%oil_temperature)
-         call get_oil(case%lubricant, temperature, oil, failure)
-         if (allocated(failure)) return
-         if (.not. oil%is_estimated) return
-         warmer = oil
-         do i = 1, most
-            last = warmer%pressure_viscosity
-            call get_oil(case%lubricant, temperature + i*step, warmer, failure)
-            if (allocated(failure)) exit
-            if (.not. warmer%pressure_viscosity > last) exit
-            distance = i*step
-         end do
-         if (distance <= 0.0_wp) return
-         words = "the pressure-viscosity coefficient, "//number_text(1.0e9_wp*oil%pressure_viscosity, 3)//" 1/GPa at "// &
-            & number_text(temperature - celsius_zero, 5)//" degC, is estimated by the formula of So and Klaus, which makes it "// &
-            & "fall with the cold below "//number_text(temperature + distance - celsius_zero, 3)//" degC, where that of oils "// &
-            & "rises; give lubricant.pressure_viscosity_points_per_GPa"
-      end associate
+      call get_oil(case%lubricant, temperature, oil, failure)
+      if (allocated(failure)) return
+      if (.not. oil%is_estimated) return
+      warmer = oil
+      do i = 1, most
+         last = warmer%pressure_viscosity
+         call get_oil(case%lubricant, temperature + i*step, warmer, failure)
+         if (allocated(failure)) exit
+         if (.not. warmer%pressure_viscosity > last) exit
+         distance = i*step
+      end do
+      if (distance <= 0.0_wp) return
+      words = "the pressure-viscosity coefficient, "//number_text(1.0e9_wp*oil%pressure_viscosity, 3)//" 1/GPa at "// &
+         & number_text(temperature - celsius_zero, 5)//" degC, is estimated by the formula of So and Klaus, which makes it "// &
+         & "fall with the cold below "//number_text(temperature + distance - celsius_zero, 3)//" degC, where that of oils "// &
+         & "rises; give lubricant.pressure_viscosity_points_per_GPa"
    end subroutine judge_estimate
 
    !> Add a state.

@@ -432,11 +432,10 @@ contains
          character(len=:), allocatable :: words
          real(wp) :: far ! [K]
 
-         case%operating_point%oil_temperature = temperature
-         call find_far_points(case, rises_t(), far, words)
+         call find_far_points(case, temperature, rises_t(), far, words)
          if (far > distance) farthest = words
          distance = max(distance, far)
-         call find_far_table(case, 0.0_wp, far, words)
+         call find_far_table(case, temperature, 0.0_wp, far, words)
          if (far > distance) farthest = words
          distance = max(distance, far)
       end subroutine look_at

@@ -50,7 +50,7 @@ contains
          call describe_hot_film(hot, part, case%lubricant, oil, "the film of the profiles", words)
          call add_remark(remarks, hot_film, words, hot%rise)
       end if
-      call find_far_points(case, rises_t(film=hot%rise), distance, words)
+      call find_far_points(case, case%operating_point%oil_temperature, rises_t(film=hot%rise), distance, words)
       if (distance > max(0.0_wp, maxval(remarks%size, mask=remarks%kind == far_temperature))) call add_remark(remarks, &
          & far_temperature, "in the profiles "//words, distance)
    end subroutine judge_hot_profiles

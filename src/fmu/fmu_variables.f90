@@ -89,9 +89,10 @@ contains
       call add(role_output, "mean_torque_friction", "N m", "torque for all losses, mean over the step", "mean_torque_friction")
       call add(role_output, "mean_torque_bearings", "N m", "torque for the camshaft bearings, mean over the step", &
          & "mean_torque_bearings")
-      call add(role_output, "smallest_torque_drive", "N m", "smallest torque that drives, within the step", &
+      call add(role_output, "smallest_torque_drive", "N m", "smallest torque that drives in the step, at angles a degree apart", &
          & "smallest_torque_drive")
-      call add(role_output, "largest_torque_drive", "N m", "largest torque that drives, within the step", "largest_torque_drive")
+      call add(role_output, "largest_torque_drive", "N m", "largest torque that drives in the step, at angles a degree apart", &
+         & "largest_torque_drive")
       call add(role_output, "estimated_error", "N m", "estimate of the error of mean_torque_drive", "estimated_error")
       do cam = 0, cams
          call add_series(case, cam, variables)

@@ -11,7 +11,7 @@ module camroller_contact_forces
    use camroller_contact_traction, only : set_traction, follow_traction
    use camroller_heat, only : inlet_factor
    use camroller_hertz, only : half_width, peak_pressure
-   use camroller_film, only : groups_t, new_film_line
+   use camroller_film, only : groups_t, new_film_line, takes_whole_load
    use camroller_load_share, only : share_change_t, share_load, improve_share, share_change
    use camroller_traction, only : mobilised_share, sliding_direction, rolling_resistance, resistance_speed_slope, &
       & resistance_length_slope, rolling_biboulet_houpert, line_lengths_t, same_lengths
@@ -22,7 +22,7 @@ module camroller_contact_forces
    private
 
    public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, start_heat, prepare_contact, evaluate_contact, &
-      & follow_contact, release_contact, film_groups, set_surfaces, has_curved_bearing, has_oil_drag, oil_drag_slope, &
+      & follow_contact, release_contact, film_groups, law_part, set_surfaces, has_curved_bearing, has_oil_drag, oil_drag_slope, &
       & bearing_by_reversal, bearing_slope, find_bearing_torque, set_bearing_drag
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
@@ -266,6 +266,20 @@ contains
       groups%roughness = contact%surfaces%roughness/position%equivalent_radius
       groups%hardness = model%hardness/model%modulus
    end function film_groups
+
+   !> Part of the load with which the film's law is used: all of it, or where the law is one of the film's own load, what asperities
+   !> do not carry.
+   pure function law_part(model, contact) result(part)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact, which touches
+      type(contact_t), intent(in) :: contact
+      !> The part [-]
+      real(wp) :: part
+
+      part = 1.0_wp
+      if (.not. takes_whole_load(model%film_law)) part = 1.0_wp - contact%asperity_load/contact%load
+   end function law_part
 
    !> Everything in the contact at a given load.
    pure subroutine evaluate_contact(model, position, setting, load, contact, parts, change)

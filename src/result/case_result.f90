@@ -18,11 +18,11 @@ module camroller_case_result
    use camroller_follower_samples, only : contact_ahead, extend_trail, trail_t
    use camroller_lobe_curve, only : cam_values, curve_values
    use camroller_series_extremes, only : series_extremes_t, find_extremes, find_lobe_extremes
-   use camroller_heat_remarks, only : judge_heat
+   use camroller_heat_remarks, only : judge_heat, judge_oil
    use camroller_joint_remarks, only : judge_joints
    use camroller_margins, only : margins_t, find_margins
-   use camroller_oil_checks, only : find_far_points, find_far_table, judge_estimate, rises_t
-   use camroller_remarks, only : add_remark, cold_estimate, far_table, far_temperature, remark_t
+   use camroller_oil_checks, only : rises_t
+   use camroller_remarks, only : remark_t
    use camroller_result, only : result_t, quantity_t, check_numbers, find_quantity, series_name_length, severest
    use camroller_part_series, only : bearing_count, bearing_series_count
    use camroller_bearing_turn, only : complete_shaft
@@ -267,17 +267,11 @@ contains
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       type(rises_t) :: rises
-      real(wp) :: distance ! way beyond the points [K]
-      character(len=:), allocatable :: words
 
       rises%film = maxval(statistics%hot_film%rise)
       if (allocated(shaft%rises)) rises%bearing = max(0.0_wp, maxval(shaft%rises))
-      call find_far_points(case, rises, distance, words)
-      if (distance > 0.0_wp) call add_remark(remarks, far_temperature, words, distance)
-      call find_far_table(case, maxval(statistics%hot_film%surface_rise), distance, words)
-      if (distance > 0.0_wp) call add_remark(remarks, far_table, words, distance)
-      call judge_estimate(case, distance, words)
-      if (distance > 0.0_wp) call add_remark(remarks, cold_estimate, words, distance)
+      rises%surface = maxval(statistics%hot_film%surface_rise)
+      call judge_oil(case, case%operating_point%oil_temperature, rises, remarks)
    end subroutine judge_temperature
 
    !> Cam angles of the output, 0 to 360 with the nose at 180, end point left out [deg].

@@ -4,7 +4,7 @@
 module camroller_film_remarks
    use camroller_bearing_asperity, only : thinnest_smooth_film
    use camroller_cam_angle, only : append_cam_angle, file_angle
-   use camroller_cycle_shares, only : liquid_stress, shares_t, thinnest_film
+   use camroller_cycle_shares, only : liquid_stress, shares_t, thinnest_ratio_allowed
    use camroller_kinds, only : wp
    use camroller_lubricant, only : pressure_limit
    use camroller_means, only : has_film_limit, statistics_t
@@ -145,7 +145,7 @@ contains
       character(len=:), allocatable :: text
 
       text = "the film between cam and roller is below "
-      call append_number(text, thinnest_film, 2)
+      call append_number(text, thinnest_ratio_allowed, 2)
       text = text//" of the roughness for "
       call append_number(text, 100.0_wp*shares%thin_share, 3)
       text = text//" % of the cycle, down to "

@@ -1,5 +1,6 @@
-!> Remarks on heat that a case leaves out: oil that friction would warm in the bearings of the camshaft, between roller and pin, or
-!> in the inlets of contacts, by so much that films and friction are other ones; on metal of bearings that is taken to pass none on.
+!> Remarks on temperatures of the oil far from those at which its laws are given; on heat that a case leaves out: oil that friction
+!> would warm in the bearings of the camshaft, between roller and pin, or in the inlets of contacts, by so much that films and
+!> friction are other ones; on metal of bearings that is taken to pass none on.
 !>
 !> In: a solved case, its summary, mean torques and films of its bearings. Out: remarks, one line of each kind. They are estimates
 !> of what `&bearing_heat` and `&heat` compute, from one bearing and one contact for all. The metal of a bearing takes what it
@@ -16,15 +17,17 @@ module camroller_heat_remarks
    use camroller_heat, only : heat_t, inlet_factor, inlet_murch_wilson
    use camroller_lubricant, only : density_at, get_oil, law_direct, oil_t, temperature_law_names
    use camroller_number_text, only : number_text
+   use camroller_oil_checks, only : find_far_points, find_far_table, judge_estimate, rises_t
    use camroller_pin_film, only : pin_journal
-   use camroller_remarks, only : add_remark, cool_bearings, cool_inlet, cool_pin, insulated_metal, rubbing_pin
+   use camroller_remarks, only : add_remark, cold_estimate, cool_bearings, cool_inlet, cool_pin, far_table, far_temperature, &
+      & insulated_metal, remark_t, rubbing_pin
    use camroller_result, only : find_quantity, result_t
    use camroller_sampled_extremes, only : samples_t
    use camroller_shaft, only : bearing_number, solved_t
    implicit none
    private
 
-   public :: judge_heat
+   public :: judge_heat, judge_oil
 
    !> Part of the film, or of the friction of bearings, that is left with heat, from which on a remark is worth its line: film
    !> laws differ by no more from each other [-]
@@ -36,6 +39,28 @@ module camroller_heat_remarks
    real(wp), parameter :: fall_step = 5.0_wp
 
 contains
+
+   !> Remarks on a temperature of oil or surfaces far from all at which their laws are given, or beyond what they are estimated for.
+   subroutine judge_oil(case, temperature, rises, remarks)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Temperature of its oil [K]
+      real(wp), intent(in) :: temperature
+      !> Rises above it
+      type(rises_t), intent(in) :: rises
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      real(wp) :: distance ! way beyond the points [K]
+      character(len=:), allocatable :: words
+
+      call find_far_points(case, temperature, rises, distance, words)
+      if (distance > 0.0_wp) call add_remark(remarks, far_temperature, words, distance)
+      call find_far_table(case, temperature, rises%surface, distance, words)
+      if (distance > 0.0_wp) call add_remark(remarks, far_table, words, distance)
+      call judge_estimate(case, temperature, distance, words)
+      if (distance > 0.0_wp) call add_remark(remarks, cold_estimate, words, distance)
+   end subroutine judge_oil
 
    !> Remarks on heat that a case leaves out.
    subroutine judge_heat(solved, films, torques, result)

@@ -13,8 +13,7 @@ module camroller_camshaft_step
    use camroller_case, only : case_t
    use camroller_lubricant, only : oil_t, get_oil
    use camroller_follower_step, only : place_t, outcome_t, piece_number
-   use camroller_part_series, only : bearing_count
-   use camroller_shaft, only : shaft_t, set_drag, set_journal, in_common_frame, bearing_torques
+   use camroller_shaft, only : shaft_t, bearing_number, set_drag, set_journal, in_common_frame, bearing_torques
    use camroller_step_inputs, only : inputs_t, inputs_between, part_number
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings, of_shaft_drag
    implicit none
@@ -30,13 +29,14 @@ module camroller_camshaft_step
       real(wp) :: mean_torque_friction = 0.0_wp, torque_friction = 0.0_wp
       !> By source, the rows of `torque_list`: mean over the step, and at its end [N m]; last the energy residual [W]
       real(wp) :: mean_torques(torque_count) = 0.0_wp, torques(torque_count) = 0.0_wp
-      !> Smallest and largest torque that drives, at the angles at which forces are taken [N m]
+      !> Smallest and largest torque that drives, at the angles at which forces are taken; of one follower without bearings, seals
+      !> and drive also at the points that its means are made of [N m]
       real(wp) :: extreme_torque(2) = 0.0_wp
       !> Estimate of the error of the mean torque that drives, as in `outcome_t` [N m]
       real(wp) :: estimated_error = 0.0_wp
       !> The same on each camshaft at the end, shape (torque, camshaft) [N m]
       real(wp), allocatable :: by_camshaft(:, :)
-      !> States of the bearings at the end, shape (bearing, camshaft); allocated where the case has series of them
+      !> States of the bearings at the end, shape (bearing, camshaft); allocated where the case has bearings
       type(bearing_state_t), allocatable :: bearings(:, :)
       !> What the follower of each cam gives
       type(outcome_t), allocatable :: followers(:)
@@ -118,7 +118,7 @@ contains
       integer :: i, k, last
 
       last = ubound(room%nodes, 2)
-      call fit_outcome(outcome, shaft%count, bearing_count(case))
+      call fit_outcome(outcome, shaft%count, bearing_number(shaft))
       outcome%mean_torques = 0.0_wp
       outcome%estimated_error = 0.0_wp
       outcome%by_camshaft = 0.0_wp
@@ -155,13 +155,18 @@ contains
       ! At the end the same sum in another order
       outcome%extreme_torque = [min(outcome%extreme_torque(1), outcome%torque_drive), &
          & max(outcome%extreme_torque(2), outcome%torque_drive)]
+      ! A follower alone knows what lies between the angles
+      if (size(outcome%followers) > 1 .or. bearing_number(shaft) > 0 .or. shaft%drag > 0.0_wp) return
+      associate (alone => outcome%followers(1)%extremes%torque_drive)
+         outcome%extreme_torque = [min(outcome%extreme_torque(1), alone(1)), max(outcome%extreme_torque(2), alone(2))]
+      end associate
    end subroutine add_up
 
    !> Give an outcome the shape of a shaft: another one may have filled it before.
    pure subroutine fit_outcome(outcome, camshafts, bearings)
       !> The outcome
       type(shaft_outcome_t), intent(inout) :: outcome
-      !> Number of camshafts, and of the bearings of each that have series
+      !> Number of camshafts, and of the bearings of each
       integer, intent(in) :: camshafts, bearings
 
       if (allocated(outcome%by_camshaft)) then

@@ -341,7 +341,7 @@ contains
       sample%torques(of_roller_inertia) = 0.0_wp
       sample%spin = 0.5_wp*model%roller_inertia*sample%state%contact%roller_spin**2
       sample%stored = sample%state%flexible%stored_energy - sample%spin
-      call widen(met, model, sample%state)
+      call widen(met, model, sample%state, angle)
       call judge_state(model, sample%state, angle, error)
    end subroutine take_sample
 

@@ -17,6 +17,7 @@ module camroller_follower_step
    use camroller_state, only : state_t, evaluate_state, cam_force
    use camroller_torque_list, only : torque_count, is_loss, is_torque
    use camroller_events, only : find_stops_between
+   use camroller_findings, only : join_findings
    use camroller_follower_samples, only : extremes_t
    use camroller_spin, only : rolling_speed_at
    use camroller_spin_piece, only : sliding_speed_of
@@ -54,6 +55,8 @@ module camroller_follower_step
       !> Estimate of the error of the mean torque that drives [N m]: what the accuracy of the case leaves, not what the inputs
       !> of the host differ from straight lines
       real(wp) :: estimated_error = 0.0_wp
+      !> Temperature of the oil at both ends of the step [K]
+      real(wp) :: oil_temperatures(2) = 0.0_wp
       !> State of the follower at the end of the step
       type(state_t) :: state
       !> Is there a step that gave it, and did not fail?
@@ -236,6 +239,7 @@ contains
       both%sliding_speed = [min(one%sliding_speed(1), other%sliding_speed(1)), max(one%sliding_speed(2), other%sliding_speed(2))]
       both%hertz_pressure = max(one%hertz_pressure, other%hertz_pressure)
       both%film_min = min(one%film_min, other%film_min)
+      both%findings = join_findings(one%findings, other%findings)
    end function joined
 
    !> Set speed and oil temperature where they are not what they are already. Films solved beforehand are solved again where the

@@ -8,23 +8,27 @@ module camroller_shaft_simulation
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_number_text, only : integer_text
+   use camroller_bearing_remarks, only : judge_step_bearings
    use camroller_case, only : case_t
    use camroller_catalogue, only : camshaft_columns, camshaft_count, camshaft_values, follower_count, list_series, lobe_columns
    use camroller_lubricant, only : oil_t, get_oil
    use camroller_follower_step, only : point_t, outcome_t
    use camroller_step_inputs, only : inputs_t
-   use camroller_shaft, only : needs_turn, shaft_t, new_shaft
+   use camroller_shaft, only : bearing_number, needs_turn, shaft_t, new_shaft
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
-      & check_angle, has_films, get_mark, get_point, set_point, get_values, simulation_place, put_simulation_back
+      & check_angle, has_films, get_mark, get_point, set_point, get_values, simulation_place, put_simulation_back, &
+      & judge_outcome
    use camroller_model_mark, only : mixed
-   use camroller_part_series, only : bearing_count
+   use camroller_remarks, only : remark_t
    use camroller_result, only : quantity_t
+   use camroller_step_remarks, only : judge_step_oil
    use camroller_camshaft_step, only : shaft_outcome_t, step_room_t, make_room, add_up
    implicit none
    private
 
    public :: shaft_simulation_t, shaft_outcome_t, prepare_shaft, start_shaft, advance_shaft, halt_shaft
-   public :: cam_number, cam_place, shaft_angle, shaft_series, shaft_values, get_shaft_mark, cam_point, set_shaft
+   public :: cam_number, cam_place, shaft_angle, shaft_series, shaft_values, list_shaft_remarks, get_shaft_mark, cam_point, &
+      & set_shaft
 
    !> All followers of a case between two steps
    type :: shaft_simulation_t
@@ -354,6 +358,36 @@ contains
       end if
    end subroutine shaft_values
 
+   !> Remarks on the last step of a shaft: what its numbers do not tell, of each cam and of the bearings at its end.
+   subroutine list_shaft_remarks(shaft, outcome, remarks)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> What its last step gave; without a step of this shaft there are no remarks
+      type(shaft_outcome_t), intent(in) :: outcome
+      !> The remarks; those on one cam begin with its number
+      type(remark_t), allocatable, intent(out) :: remarks(:)
+
+      type(error_t), allocatable :: failure
+      type(remark_t), allocatable :: of_cam(:)
+      integer :: cam, i
+
+      allocate (remarks(0))
+      if (.not. allocated(shaft%followers)) return
+      call check_outcome(shaft, outcome, failure)
+      if (allocated(failure)) return
+      do cam = 1, size(shaft%followers)
+         allocate (of_cam(0))
+         call judge_outcome(shaft%followers(cam), outcome%followers(cam), of_cam)
+         do i = 1, size(of_cam)
+            of_cam(i)%text = "cam "//integer_text(cam)//": "//of_cam(i)%text
+         end do
+         remarks = [remarks, of_cam]
+         deallocate (of_cam)
+      end do
+      call judge_step_oil(shaft%case, outcome%followers(1)%oil_temperatures, remarks)
+      if (allocated(outcome%bearings)) call judge_step_bearings(shaft%shaft, outcome%bearings, remarks)
+   end subroutine list_shaft_remarks
+
    !> Refuse an outcome that no step of a shaft has filled.
    subroutine check_outcome(shaft, outcome, error)
       !> The shaft
@@ -367,8 +401,8 @@ contains
 
       fits = allocated(outcome%followers) .and. allocated(outcome%by_camshaft)
       if (fits) fits = size(outcome%followers) == size(shaft%followers) .and. size(outcome%by_camshaft, 2) == shaft%shaft%count &
-         & .and. (allocated(outcome%bearings) .eqv. bearing_count(shaft%case) > 0)
-      if (fits .and. allocated(outcome%bearings)) fits = size(outcome%bearings, 1) == bearing_count(shaft%case)
+         & .and. (allocated(outcome%bearings) .eqv. bearing_number(shaft%shaft) > 0)
+      if (fits .and. allocated(outcome%bearings)) fits = size(outcome%bearings, 1) == bearing_number(shaft%shaft)
       if (.not. fits) call raise(error, kind_usage, "shaft_values: the outcome is not that of a step of this shaft; call "// &
          & "advance_shaft first")
    end subroutine check_outcome

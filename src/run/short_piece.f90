@@ -205,7 +205,7 @@ contains
                if (.not. is_enough) return
                call sampled_values(samples, samples%state, part%values(:, place))
                if (part%touches) part%values(of_geometric, place) = 0.0_wp
-               call widen(samples%extremes, samples%model, samples%state)
+               call widen(samples%extremes, samples%model, samples%state, angle)
                if (present(states)) states((place + 1)/2) = samples%state
             end associate
          end do

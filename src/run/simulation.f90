@@ -23,15 +23,17 @@ module camroller_simulation
    use camroller_spin, only : rolling_speed_at
    use camroller_cycle_start, only : choose_start
    use camroller_model_mark, only : mark_model
+   use camroller_remarks, only : remark_t
    use camroller_result, only : quantity_t
    use camroller_run, only : build_model
+   use camroller_step_remarks, only : judge_follower_step, judge_step_oil
    implicit none
    private
 
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    public :: prepare_simulation, place_simulation, check_angle, check_step, has_films, simulation_place, put_simulation_back
    public :: get_point, set_point, get_lobe, get_mark, get_values, is_started
-   public :: simulation_angle, simulation_series, simulation_values
+   public :: simulation_angle, simulation_series, simulation_values, list_step_remarks, judge_outcome
 
    !> A follower between two steps
    type :: simulation_t
@@ -237,6 +239,7 @@ contains
       else
          call step_follower(simulation%follower, cam_angle, start, finish, outcome, error, nodes)
       end if
+      outcome%oil_temperatures = [start%oil_temperature, finish%oil_temperature]
       outcome%is_of_step = .not. allocated(error)
       if (outcome%is_of_step) return
       if (allocated(kept)) then
@@ -347,6 +350,35 @@ contains
          call raise(error, kind_usage, "simulation_values: the outcome is not that of a step; call start_simulation, then advance")
       end if
    end subroutine simulation_values
+
+   !> Remarks on the last step of a follower: what its numbers do not tell, as that contact was lost or a law left its range.
+   subroutine list_step_remarks(simulation, case, outcome, remarks)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> The case that it was started with
+      type(case_t), intent(in) :: case
+      !> What its last step gave; without a step there are no remarks
+      type(outcome_t), intent(in) :: outcome
+      !> The remarks, one of each kind at most
+      type(remark_t), allocatable, intent(out) :: remarks(:)
+
+      allocate (remarks(0))
+      if (.not. outcome%is_of_step) return
+      call judge_outcome(simulation, outcome, remarks)
+      call judge_step_oil(case, outcome%oil_temperatures, remarks)
+   end subroutine list_step_remarks
+
+   !> Remarks on the numbers of a follower's step.
+   subroutine judge_outcome(simulation, outcome, remarks)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> What its last step gave
+      type(outcome_t), intent(in) :: outcome
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      call judge_follower_step(simulation%follower%model, outcome%extremes, remarks)
+   end subroutine judge_outcome
 
    !> Values of the series of one follower at the end of its last step.
    subroutine get_values(simulation, case, state, values)

@@ -64,8 +64,9 @@ contains
       !> Usage, deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Temperature that no oil in an engine has: degrees Celsius in the place of kelvins are below it [K]
-      real(wp), parameter :: coldest = 150.0_wp
+      ! Temperature that no oil in an engine has: all degrees Celsius of hot oil, up to 180, taken for kelvins are below it, and the
+      ! coldest starts, at -40 degC, above [K]
+      real(wp), parameter :: coldest = 210.0_wp
       type(oil_t) :: oil
       ! At both ends [K]
       real(wp) :: temperatures(2)

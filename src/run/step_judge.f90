@@ -6,17 +6,15 @@
 module camroller_step_judge
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, kind_domain
-   use camroller_cam_angle, only : append_cam_angle
-   use camroller_contact_forces, only : film_groups
    use camroller_cycle, only : cycle_t, state_at
    use camroller_engine, only : write_speed
-   use camroller_film, only : group_count, group_values, groups_t, is_in_range, law_table, published_range
-   use camroller_film_range, only : group_names, outside_words
+   use camroller_film, only : groups_t, is_in_range
+   use camroller_findings, only : is_lost, range_groups
    use camroller_model, only : model_t
-   use camroller_number_text, only : append_number
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t
    use camroller_step_inputs, only : part_number
+   use camroller_step_remarks, only : append_groups, append_lost, append_outside
    implicit none
    private
 
@@ -73,53 +71,24 @@ contains
 
       is_forbidden = .false.
       if (.not. state%contact%is_touching) then
-         is_forbidden = model%stops_without_contact
-         ! with a lash there is no contact on the base circle
-         if (is_forbidden .and. allocated(model%flexible)) is_forbidden = model%flexible%lash <= 0.0_wp
-         if (is_forbidden) text = "contact is lost at "
+         is_forbidden = model%stops_without_contact .and. is_lost(model, state)
       else if (model%stops_outside_range) then
-         groups = film_groups(model, state%position, state%contact)
+         groups = range_groups(model, state)
          is_forbidden = .not. is_in_range(model%film_law, groups, model%film_table)
-         if (is_forbidden) text = trim(outside_words(model%film_law))//" at "
       end if
       if (.not. is_forbidden) return
-      call append_cam_angle(text, angle, 3)
+      text = "advance: "
       call write_speed(model%speed, model%crank_turns, 6, speed)
-      text = "advance: "//text//" at "//speed
       if (state%contact%is_touching) then
-         call add_groups(model%film_law, groups, text)
+         call append_outside(text, model%film_law, angle)
+         text = text//" at "//speed
+         call append_groups(text, model%film_law, groups)
          text = text//" (range_policy = 'stop')"
       else
-         text = text//" (contact_policy = 'stop')"
+         call append_lost(text, angle)
+         text = text//" at "//speed//" (contact_policy = 'stop')"
       end if
       call raise(error, kind_domain, text)
    end subroutine judge_state
-
-   !> Say which groups of a film are outside of the range that its law was published for.
-   subroutine add_groups(law, groups, text)
-      !> Position of the law in `film_law_names`
-      integer, intent(in) :: law
-      !> The groups
-      type(groups_t), intent(in) :: groups
-      !> Text to extend
-      character(len=:), allocatable, intent(inout) :: text
-
-      ! Published bounds of the groups, the groups [-]
-      real(wp) :: bounds(2, group_count), values(group_count)
-      integer :: i
-
-      if (law == law_table) return
-      bounds = published_range(law)
-      values = group_values(groups)
-      do i = 1, group_count
-         if (values(i) >= bounds(1, i) .and. values(i) <= bounds(2, i)) cycle
-         text = text//"; "//trim(group_names(i))//" is "
-         call append_number(text, values(i), 3)
-         text = text//", published for "
-         call append_number(text, bounds(1, i), 3)
-         text = text//" to "
-         call append_number(text, bounds(2, i), 3)
-      end do
-   end subroutine add_groups
 
 end module camroller_step_judge

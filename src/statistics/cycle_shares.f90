@@ -6,7 +6,7 @@ module camroller_cycle_shares
    use camroller_kinds, only : wp
    use camroller_asperity, only : spread_load
    use camroller_axial_table, only : effective_lengths, oiled_parts
-   use camroller_contact_forces, only : film_groups
+   use camroller_contact_forces, only : film_groups, law_part
    use camroller_film, only : groups_t, is_in_range, takes_whole_load
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
@@ -21,7 +21,7 @@ module camroller_cycle_shares
    implicit none
    private
 
-   public :: shares_t, add_shares, thinnest_film, liquid_stress, shear_ratio_allowed
+   public :: shares_t, add_shares, thinnest_ratio_allowed, liquid_stress, shear_ratio_allowed
 
    !> Fractions of a cycle without contact and outside the film law's range
    type :: shares_t
@@ -46,8 +46,8 @@ module camroller_cycle_shares
       !> Fraction of the cycle with more than `rolling_excess_allowed` of the rolling resistance of a law for all contacts [-]; the
       !> largest part of it [-], and its cam angle from full lift [rad]
       real(wp) :: rolling_share = 0.0_wp, rolling_excess = 0.0_wp, rolling_angle = 0.0_wp
-      !> Fraction of the cycle with a film below `thinnest_film` of the roughness [-]; the smallest part of it [-], and its cam
-      !> angle from full lift [rad]
+      !> Fraction of the cycle with a film below `thinnest_ratio_allowed` of the roughness [-]; the smallest part of it [-], and its
+      !> cam angle from full lift [rad]
       real(wp) :: thin_share = 0.0_wp, thinnest_ratio = huge(1.0_wp), thinnest_angle = 0.0_wp
       !> Fraction of the cycle in which asperities beside the strip of the dry contact, where none are counted, would add more than
       !> `part_gain_allowed` to the asperities' part of the load; means over the cycle of that gain there, and of the part without
@@ -73,7 +73,7 @@ module camroller_cycle_shares
    !> Film over roughness of a contact from which down a word is due: laws for smooth surfaces and Greenwood and Tripp's asperities
    !> then share the load as if these still stood on a film. Hot oil at low speed, where roughness is a few times the film, is mixed
    !> friction as the source has it; a tenth is beyond that [-]
-   real(wp), parameter :: thinnest_film = 0.1_wp
+   real(wp), parameter :: thinnest_ratio_allowed = 0.1_wp
    !> Gain of the asperities' part of the load by those beside the dry contact from which on a word is due: film laws differ by as
    !> much in that part (0.255 by Dowson and Higginson, 0.205 by Moes in a contact of the source with 2.8 um of roughness) [-]; that
    !> part from which on it is looked for: beside the strip is up to ten times of what is in it [-]; fraction of a cycle in which it
@@ -116,8 +116,7 @@ contains
          is_inside = .true.
          of_film = groups
          if (state%contact%is_touching) then
-            if (.not. takes_whole_load(model%film_law)) of_film%load = groups%load*(1.0_wp - state%contact%asperity_load &
-               & /state%contact%load)
+            of_film%load = groups%load*law_part(model, state%contact)
             is_inside = is_in_range(model%film_law, of_film, model%film_table)
          else
             shares%lost_share = shares%lost_share + weight
@@ -158,7 +157,7 @@ contains
       !> Fraction of the cycle that the state represents [-]
       real(wp), intent(in) :: weight
 
-      if (film_ratio >= thinnest_film) return
+      if (film_ratio >= thinnest_ratio_allowed) return
       shares%thin_share = shares%thin_share + weight
       if (film_ratio >= shares%thinnest_ratio) return
       shares%thinnest_ratio = film_ratio

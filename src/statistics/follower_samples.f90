@@ -14,6 +14,7 @@ module camroller_follower_samples
    use camroller_catalogue, only : follower_values
    use camroller_torque_list, only : torque_count, of_geometric, of_roller_inertia
    use camroller_contact_forces, only : contact_t
+   use camroller_findings, only : findings_t, note_findings
    use camroller_axial_table, only : slice_width
    use camroller_part_series, only : largest_pressure, thinnest_film
    use camroller_sampled_extremes, only : samples_t, add_sample, start_rows => start_samples
@@ -47,6 +48,8 @@ module camroller_follower_samples
       real(wp) :: hertz_pressure = 0.0_wp
       !> Smallest film along the roller where there is contact; huge where there is none [m]
       real(wp) :: film_min = huge(1.0_wp)
+      !> What a host should know beside
+      type(findings_t) :: findings
    end type extremes_t
 
    !> Contacts that were solved last, one behind the other, from which the next one is looked for
@@ -130,7 +133,7 @@ contains
       if (associated(self%case)) then
          call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
       else
-         call widen(self%extremes, self%model, self%state)
+         call widen(self%extremes, self%model, self%state, x)
       end if
    end subroutine sample
 
@@ -211,14 +214,17 @@ contains
    end subroutine sampled_values
 
    !> Let extremes take in a state.
-   pure subroutine widen(extremes, model, state)
+   pure subroutine widen(extremes, model, state, angle)
       !> The extremes
       type(extremes_t), intent(inout) :: extremes
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> State of the follower
       type(state_t), intent(in) :: state
+      !> Its cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
 
+      call note_findings(extremes%findings, model, state, angle)
       call widen_range(extremes%contact_load, state%contact%load)
       call widen_range(extremes%torque_drive, state%torque_drive)
       call widen_range(extremes%sliding_speed, state%contact%sliding_speed)

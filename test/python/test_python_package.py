@@ -69,10 +69,13 @@ block, copy = follower.save(), follower.copy()
 sums = [drive(follower), drive(copy), drive(camroller.Simulation.restore(case, block))]
 answers["same"] = sums[0] == sums[1] == sums[2]
 answers["load"] = follower.value("contact_load")
+follower.step(follower.angle + 0.1, camroller.Inputs(60.0, 390.0))
+answers["step_remarks"] = [(remark.kind, remark) for remark in follower.remarks]
 shaft = camroller.Shaft(camroller.Case(sys.argv[2]), angle=0.0, threads=2)
 drive(shaft)
 answers["phases"] = [cam.phase for cam in shaft.cams]
 answers["camshaft"] = shaft.values()
+answers["shaft_remarks"] = [remark.kind for remark in shaft.remarks]
 answers["by_name"] = shaft.value("torque_drive")
 answers["names"] = [quantity.name for quantity in shaft.quantities(2)]
 pressures = [[1e5, 2e5, 3e5], [1e5, 2e5, 3e5]]
@@ -165,6 +168,12 @@ def test_torques_by_source_add_up_and_pressures_count_where_they_are_set(answers
         assert others > 1e-4 * drive > 0 and listed + others == pytest.approx(drive, rel=1e-12)
     steps, gas, supply = answers["gas"]
     assert steps[0] == steps[1] != steps[2] and gas == 6e5 and supply is None
+
+
+def test_steps_have_remarks(answers):
+    far = [words for kind, words in answers["step_remarks"] if kind == "oil far from its points"]
+    assert len(far) == 1 and far[0].startswith("the oil temperature, 116.85 degC, is 21.85 K above")
+    assert "oil far from its points" not in answers["shaft_remarks"]
 
 
 def test_copies_and_saved_states_continue_with_the_same_bits(answers):

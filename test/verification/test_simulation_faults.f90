@@ -144,7 +144,7 @@ contains
       if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, infinity, "temperature")
       if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, 0.0_wp, "temperature")
       ! degrees Celsius
-      if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, 90.0_wp, "kelvin")
+      if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, 180.0_wp, "kelvin")
       if (allocated(error)) return
       call advance(simulation, 1.1_wp, 31.0_wp, 330.0_wp, outcome, failure)
       call check(error, .not. allocated(failure), "the follower is of no use after a refusal")
