@@ -7,6 +7,7 @@ module camroller_c_shaft
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_error, only : error_t
    use camroller_case, only : case_t
+   use camroller_remarks, only : remark_t
    use camroller_result, only : quantity_t
    use camroller_simulation, only : inputs_t
    use camroller_shaft_simulation, only : shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, cam_number, &
@@ -31,6 +32,8 @@ module camroller_c_shaft
       type(shaft_outcome_t) :: outcomes(2)
       !> Place of the former; 0 before the first step
       integer :: last = 0
+      !> Remarks on it, once they have been asked for
+      type(remark_t), allocatable :: remarks(:)
    end type shaft_handle_t
 
    !> What a step gives, as the header has it
@@ -183,6 +186,7 @@ contains
       end if
       if (.not. allocated(failure)) then
          given%last = next
+         if (allocated(given%remarks)) deallocate (given%remarks)
          if (c_associated(outcome)) call fill_outcome(given%outcomes(next), filled)
       end if
       call give_error(failure, error, code)

@@ -6,7 +6,6 @@ module camroller_c_shaft_values
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_number_text, only : integer_text
-   use camroller_remarks, only : remark_t
    use camroller_result, only : quantity_t, find_quantity
    use camroller_shaft_simulation, only : cam_number, cam_place, list_shaft_remarks, shaft_values
    use camroller_c_shaft, only : shaft_handle_t
@@ -258,15 +257,13 @@ contains
       integer(c_int) :: code
 
       type(shaft_handle_t), pointer :: given
-      type(remark_t), allocatable :: remarks(:)
       type(error_t), allocatable :: failure
 
       call refuse_null(handle, "camroller_shaft", failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
-         allocate (remarks(0))
-         if (given%last > 0) call list_shaft_remarks(given%shaft, given%outcomes(given%last), remarks)
-         call give_remark(remarks, number, texts, room, failure)
+         if (.not. allocated(given%remarks)) call list_shaft_remarks(given%shaft, given%outcomes(max(1, given%last)), given%remarks)
+         call give_remark(given%remarks, number, texts, room, failure)
       end if
       call give_error(failure, error, code)
    end function shaft_remark

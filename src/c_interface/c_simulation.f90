@@ -27,6 +27,8 @@ module camroller_c_simulation
       type(outcome_t) :: outcome
       !> Has it made a step?
       logical :: has_outcome = .false.
+      !> Remarks on the last step, once they have been asked for
+      type(remark_t), allocatable :: remarks(:)
    end type simulation_handle_t
 
 contains
@@ -147,6 +149,7 @@ contains
          if (.not. allocated(failure)) then
             given%outcome = made
             given%has_outcome = .true.
+            if (allocated(given%remarks)) deallocate (given%remarks)
             call give_outcome(made, outcome)
          end if
       end if
@@ -218,14 +221,13 @@ contains
       integer(c_int) :: code
 
       type(simulation_handle_t), pointer :: given
-      type(remark_t), allocatable :: remarks(:)
       type(error_t), allocatable :: failure
 
       call refuse_null(handle, "camroller_simulation", failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
-         call list_step_remarks(given%simulation, given%case, given%outcome, remarks)
-         call give_remark(remarks, number, texts, room, failure)
+         if (.not. allocated(given%remarks)) call list_step_remarks(given%simulation, given%case, given%outcome, given%remarks)
+         call give_remark(given%remarks, number, texts, room, failure)
       end if
       call give_error(failure, error, code)
    end function simulation_remark

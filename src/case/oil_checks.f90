@@ -100,16 +100,10 @@ contains
       character(len=*), parameter :: around = "the oil temperature", bearing = "the oil temperature in a camshaft bearing", &
          & film = "the oil temperature between cam and roller", passing = " is that of a law that passes through its points", &
          & straight = " is that of a straight line through its points"
-      type(oil_t) :: oil
-      type(error_t), allocatable :: failure
-      character(len=:), allocatable :: viscosity
 
       distance = 0.0_wp
       words = ""
       associate (lubricant => case%lubricant)
-         viscosity = "the viscosity"
-         call get_oil(lubricant, temperature, oil, failure)
-         if (.not. allocated(failure)) viscosity = viscosity//", "//number_text(1.0e3_wp*oil%viscosity, 3)//" mPa s,"
          if (lubricant%temperature_law == "data_sheet") then
             call look_at_viscosity(sheet_temperatures, far_from_sheet)
          else if (lubricant%temperature_law /= temperature_law_names(law_direct) .and. allocated(lubricant%temperature_points)) then
@@ -130,7 +124,17 @@ contains
          !> Temperatures of the points, increasing; way beyond them that is far [K]
          real(wp), intent(in) :: points(:), far
 
-         call look_at(points, far, temperature, around, viscosity//passing, distance, words)
+         type(oil_t) :: oil
+         type(error_t), allocatable :: failure
+         character(len=:), allocatable :: viscosity
+
+         ! What the law makes of it is asked for where it will be told
+         if (way_beyond(points, temperature) > far) then
+            viscosity = "the viscosity"
+            call get_oil(case%lubricant, temperature, oil, failure)
+            if (.not. allocated(failure)) viscosity = viscosity//", "//number_text(1.0e3_wp*oil%viscosity, 3)//" mPa s,"
+            call look_at(points, far, temperature, around, viscosity//passing, distance, words)
+         end if
          call look_at(points, far, temperature + rises%bearing, bearing, "the viscosity there"//passing, distance, words)
          call look_at(points, far, temperature + rises%film, film, "the viscosity there"//passing, distance, words)
       end subroutine look_at_viscosity
@@ -164,6 +168,17 @@ contains
       end associate
    end subroutine find_far_table
 
+   !> How far a temperature is beyond those of points.
+   pure function way_beyond(points, temperature) result(beyond)
+      !> Temperatures of the points, increasing; the temperature [K]
+      real(wp), intent(in) :: points(:), temperature
+      !> Way beyond the points; below zero between them, and where there are none [K]
+      real(wp) :: beyond
+
+      beyond = -huge(1.0_wp)
+      if (size(points) > 0) beyond = max(points(1) - temperature, temperature - points(size(points)))
+   end function way_beyond
+
    !> Compare a temperature with those of points, and keep it where it is the farthest off so far.
    subroutine look_at(points, far, temperature, name, meaning, distance, words)
       !> Temperatures of the points, increasing; way beyond them that is far; the temperature [K]
@@ -177,8 +192,7 @@ contains
 
       real(wp) :: beyond ! way beyond the points [K]
 
-      if (size(points) == 0) return
-      beyond = max(points(1) - temperature, temperature - points(size(points)))
+      beyond = way_beyond(points, temperature)
       if (beyond <= max(far, distance)) return
       distance = beyond
       words = name//", "//number_text(temperature - celsius_zero, 5)//" degC, is "//number_text(beyond, 4)// &
