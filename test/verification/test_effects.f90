@@ -5,7 +5,7 @@ module test_effects
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_effect_list, only : effect_names, effect_ehl, effect_needle, effect_pressure, leave_out
+   use camroller_effect_list, only : effect_names, effect_bearings, effect_ehl, effect_needle, effect_pressure, leave_out
    use camroller_effect_bearings, only : mean_bearing_torque
    use camroller_effect_survey, only : make_survey, survey_t
    use camroller_model, only : model_t, new_model, revise_model
@@ -28,6 +28,7 @@ contains
 
       testsuite = [ &
          new_unittest("camshaft bearings change no bit of any other result", test_bearings), &
+         new_unittest("without bearings several cams keep every bit of their other results", test_several_cams), &
          new_unittest("with energy 'source' the valve guide changes no bit of any other result", test_guide), &
          new_unittest("with energy 'source' the needle bearing changes no bit of the load", test_needle), &
          new_unittest("an absent effect has no series and no scalar", test_absent), &
@@ -60,6 +61,22 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_bearings
+
+   subroutine test_several_cams(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: with, without
+      type(error_t), allocatable :: failure
+
+      call get_deck_case("decks/three_cam_head.nml", case, failure)
+      call expect_success(error, failure)
+      if (.not. allocated(error)) call run(case, with, error)
+      if (allocated(error)) return
+      call leave_out(case, effect_bearings)
+      call run(case, without, error)
+      if (.not. allocated(error)) call check(error, find_quantity(without%series, "torque_bearings"), 0, "bearings are left")
+      if (.not. allocated(error)) call compare(without, with, "torque_bearings", error)
+   end subroutine test_several_cams
 
    !> The loads are on straight lines between the angles of the survey.
    subroutine test_over_turn(error)
