@@ -443,12 +443,11 @@ contains
       state%peak = loads(top)
       state%place = slice_place(top, n, part%length)
       if (top > 1 .and. top < n) then
+         ! Below zero, as the slice behind has less than the largest load
          bend = loads(top - 1) - 2.0_wp*loads(top) + loads(top + 1)
-         if (bend < 0.0_wp) then
-            offset = 0.5_wp*(loads(top - 1) - loads(top + 1))/bend
-            state%place = state%place + offset*part%length/n
-            state%peak = state%peak - 0.5_wp*bend*offset**2
-         end if
+         offset = 0.5_wp*(loads(top - 1) - loads(top + 1))/bend
+         state%place = state%place + offset*part%length/n
+         state%peak = state%peak - 0.5_wp*bend*offset**2
       end if
       ! The middle has no rounding whose mean could be looked for
       if (abs(state%place) < sqrt(epsilon(1.0_wp))*part%length) state%place = 0.0_wp

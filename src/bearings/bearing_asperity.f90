@@ -398,7 +398,6 @@ contains
       ! Before the quotient: a journal on its orbit may be in the middle
       if (.not. largest_film_ratio*touch%roughness/clearance > gap) return
       sine = (largest_film_ratio*touch%roughness/clearance - gap)/(2.0_wp*eccentricity)
-      if (.not. sine > 0.0_wp) return
       last = 2.0_wp*asin(sqrt(min(sine, 1.0_wp)))
       angles = last*touch%places
       ratios = clearance/touch%roughness*(gap + 2.0_wp*eccentricity*sin(0.5_wp*angles)**2)

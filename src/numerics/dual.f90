@@ -7,7 +7,7 @@ module camroller_dual
    implicit none
    private
 
-   public :: dual_t, constant_part, operator(+), operator(-), operator(*), operator(/), abs, sqrt, exp, tanh
+   public :: dual_t, constant_part, operator(+), operator(-), operator(*), operator(/), abs, sqrt, tanh
 
    !> A value and its derivative
    type :: dual_t
@@ -30,7 +30,7 @@ module camroller_dual
    end interface operator(*)
 
    interface operator(/)
-      module procedure divide_dual, divide_by_real
+      module procedure divide_by_real
    end interface operator(/)
 
    interface abs
@@ -40,10 +40,6 @@ module camroller_dual
    interface sqrt
       module procedure square_root
    end interface sqrt
-
-   interface exp
-      module procedure exponential
-   end interface exp
 
    interface tanh
       module procedure hyperbolic_tangent
@@ -137,17 +133,6 @@ contains
       product = dual_t(left*right%value, left*right%slope)
    end function multiply_real
 
-   !> Quotient of two dual numbers.
-   elemental function divide_dual(left, right) result(quotient)
-      !> Numerator, denominator
-      type(dual_t), intent(in) :: left, right
-      !> Quotient
-      type(dual_t) :: quotient
-
-      quotient%value = left%value/right%value
-      quotient%slope = (left%slope - quotient%value*right%slope)/right%value
-   end function divide_dual
-
    !> Quotient of a dual number and a constant.
    elemental function divide_by_real(left, right) result(quotient)
       !> Numerator
@@ -180,17 +165,6 @@ contains
       root%value = sqrt(number%value)
       if (root%value > 0.0_wp) root%slope = 0.5_wp*number%slope/root%value
    end function square_root
-
-   !> Exponential function.
-   elemental function exponential(number) result(power)
-      !> A number
-      type(dual_t), intent(in) :: number
-      !> Its exponential
-      type(dual_t) :: power
-
-      power%value = exp(number%value)
-      power%slope = power%value*number%slope
-   end function exponential
 
    !> Hyperbolic tangent.
    elemental function hyperbolic_tangent(number) result(tangent)

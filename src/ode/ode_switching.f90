@@ -385,20 +385,13 @@ contains
          has_kink = any((walk%new_switches - walk%kinks)*(walk%switches - walk%kinks) < 0.0_wp)
          if (has_kink .and. step%scaled_error > least_kink) then
             step%curve(:, :) = 0.0_wp
-            if (method%has_curve) then
-               step%curve(:, :size(method%bends, 2)) = method%bends
-            else
-               step%curve(:, 1) = step%length*step%rate - (step%new_state - step%state)
-            end if
+            step%curve(:, :size(method%bends, 2)) = method%bends
             call find_first_kink(problem, walk)
          end if
          if (step%scaled_error > 1.0_wp .or. .not. ends_at_kink(walk)) return
          if (method%needs_jacobian) then
             call problem%linearise(step%end_time, step%new_state, method%horizon, method%there, counters, status)
             step%new_rate(:) = method%there%rate
-         else if (.not. method%gives_rate) then
-            call problem%get_rate(step%end_time, step%new_state, step%new_rate, status)
-            counters%evaluations = counters%evaluations + 1
          end if
          if (status /= 0) step%scaled_error = impossible_error
       end associate

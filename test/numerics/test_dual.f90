@@ -2,7 +2,7 @@
 module test_dual
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
-   use camroller_dual, only : dual_t, constant_part, operator(+), operator(-), operator(*), operator(/), abs, sqrt, exp, tanh
+   use camroller_dual, only : dual_t, constant_part, operator(+), operator(-), operator(*), operator(/), abs, sqrt, tanh
    implicit none
    private
 
@@ -24,7 +24,7 @@ contains
       type(dual_t), intent(in) :: x
       type(dual_t) :: y
 
-      y = sqrt(x*x + 1.0_wp)/(3.0_wp - x) - 2.0_wp*exp(-(x/4.0_wp)) + tanh(x - constant_part(x)*x)*abs(1.0_wp - 2.0_wp*x)
+      y = sqrt(x*x + 1.0_wp)*(3.0_wp - x) - (-(x/4.0_wp)) + tanh(x - constant_part(x)*x)*abs(1.0_wp - 2.0_wp*x)
    end function formula
 
    subroutine test_formula(error)
@@ -50,8 +50,7 @@ contains
       type(dual_t) :: y, moved
 
       moved = dual_t(x + step, 0.0_wp)
-      y = sqrt(moved*moved + 1.0_wp)/(3.0_wp - moved) - 2.0_wp*exp(-(moved/4.0_wp)) &
-         & + tanh(moved - x*moved)*abs(1.0_wp - 2.0_wp*moved)
+      y = sqrt(moved*moved + 1.0_wp)*(3.0_wp - moved) - (-(moved/4.0_wp)) + tanh(moved - x*moved)*abs(1.0_wp - 2.0_wp*moved)
    end function held_formula
 
    subroutine test_constants(error)

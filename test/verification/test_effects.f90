@@ -5,9 +5,16 @@ module test_effects
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_result, only : result_t, quantity_t, find_quantity
+   use camroller_effect_list, only : effect_names, effect_bearings, effect_ehl, effect_needle, effect_pressure, leave_out
+   use camroller_effect_bearings, only : mean_bearing_torque
+   use camroller_effect_survey, only : make_survey, survey_t
+   use camroller_model, only : model_t, new_model, revise_model
+   use camroller_result, only : result_t, quantity_t, find_quantity, get_summary
    use camroller_kept_models, only : kept_models_t
-   use camroller_run, only : run_case, run_next_case
+   use camroller_run, only : build_models, run_case, run_next_case
+   use camroller_state, only : evaluate_state, state_t
+   use closeness, only : check_close, expect_success
+   use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, source_case, set_point, point_speeds, point_viscosities
    implicit none
    private
@@ -21,12 +28,17 @@ contains
 
       testsuite = [ &
          new_unittest("camshaft bearings change no bit of any other result", test_bearings), &
+         new_unittest("without bearings several cams keep every bit of their other results", test_several_cams), &
          new_unittest("with energy 'source' the valve guide changes no bit of any other result", test_guide), &
          new_unittest("with energy 'source' the needle bearing changes no bit of the load", test_needle), &
          new_unittest("an absent effect has no series and no scalar", test_absent), &
          new_unittest("a case run after other cases has the same bits as alone", test_kept), &
          new_unittest("bearings of a single cam with the second lobe shape are not surveyed, and kept", &
             & test_lobe), &
+         new_unittest("bearings with orbits or heat have at surveyed loads the torque of the cycle, others that of each angle", &
+            & test_over_turn), &
+         new_unittest("a model without an effect has the bits of a new one, with films kept, solved again or by a formula", &
+            & test_revised), &
          new_unittest("leaving out the bearings leaves out the second lobe shape", test_without_bearings) &
          ]
    end subroutine collect_effects
@@ -49,6 +61,101 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_bearings
+
+   subroutine test_several_cams(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: with, without
+      type(error_t), allocatable :: failure
+
+      call get_deck_case("decks/three_cam_head.nml", case, failure)
+      call expect_success(error, failure)
+      if (.not. allocated(error)) call run(case, with, error)
+      if (allocated(error)) return
+      call leave_out(case, effect_bearings)
+      call run(case, without, error)
+      if (.not. allocated(error)) call check(error, find_quantity(without%series, "torque_bearings"), 0, "bearings are left")
+      if (.not. allocated(error)) call compare(without, with, "torque_bearings", error)
+   end subroutine test_several_cams
+
+   !> The loads are on straight lines between the angles of the survey.
+   subroutine test_over_turn(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: decks(2) = [character(len=24) :: "decks/journal_orbits.nml", "decks/warm_bearings.nml"]
+      ! The accuracy with which a bearing is followed over the turn [-]
+      real(wp), parameter :: allowed = 1.0e-2_wp
+      type(case_t) :: case
+      type(model_t), allocatable :: models(:)
+      type(survey_t) :: survey
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Mean torques over the turn, at each angle, of the cycle [N m]
+      real(wp) :: followed, steady, expected
+      integer :: i
+
+      do i = 1, size(decks)
+         ! with thin oil, where an orbit in the other direction would take 4 % more
+         call get_deck_case(trim(decks(i)), case, failure, number=6)
+         if (.not. allocated(failure)) call build_models(case, models, failure)
+         if (.not. allocated(failure)) call make_survey(models(1), survey)
+         if (.not. allocated(failure)) call mean_bearing_torque(case, models(1), survey, .true., followed, failure)
+         if (.not. allocated(failure)) call run_case(case, result, failure)
+         if (.not. allocated(failure)) call get_summary(result, "mean_torque_bearings", expected, failure)
+         call expect_success(error, failure)
+         if (.not. allocated(error)) call check_close(error, followed, expected, allowed, "over the turn: "//decks(i))
+         if (allocated(error)) return
+         if (allocated(case%bearing_heat)) deallocate (case%bearing_heat)
+         case%cam_bearings%journal_motion = "quasi_steady"
+         call mean_bearing_torque(case, models(1), survey, .true., followed, failure)
+         if (.not. allocated(failure)) call mean_bearing_torque(case, models(1), survey, .false., steady, failure)
+         call expect_success(error, failure)
+         if (.not. allocated(error)) call check_close(error, followed, steady, allowed, "quasi-steady: "//decks(i))
+         if (allocated(error)) return
+      end do
+   end subroutine test_over_turn
+
+   subroutine test_revised(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: effects(3) = [effect_needle, effect_pressure, effect_ehl]
+      ! Cam angles [rad], sliding speed [m/s]
+      real(wp), parameter :: angles(3) = [-0.7_wp, 0.1_wp, 3.0_wp], sliding_speed = 0.02_wp
+      type(case_t) :: case, variant
+      type(model_t) :: model, revised, new
+      type(state_t) :: states(2)
+      type(error_t), allocatable :: failure
+      integer :: i, place, status(2)
+
+      case = thesis_case()
+      call set_point(case, point_speeds(2), point_viscosities(2))
+      case%lubricant%pressure_law = "roelands"
+      allocate (case%ehl)
+      case%ehl%accuracy = 0.05_wp
+      call new_model(model, case, 1, failure)
+      do i = 1, size(effects)
+         variant = case
+         call leave_out(variant, effects(i))
+         revised = model
+         if (.not. allocated(failure)) call revise_model(revised, variant, failure)
+         if (.not. allocated(failure)) call new_model(new, variant, 1, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         do place = 1, size(angles)
+            call evaluate_state(revised, angles(place), sliding_speed, states(1), status(1))
+            call evaluate_state(new, angles(place), sliding_speed, states(2), status(2))
+            call check(error, all(status == 0) .and. all(bits_of(states(1)) == bits_of(states(2))), &
+               & "bits without "//trim(effect_names(effects(i))))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_revised
+
+   !> Bits of what a contact gives.
+   pure function bits_of(state) result(bits)
+      type(state_t), intent(in) :: state
+      integer(int64) :: bits(3)
+
+      bits = transfer([state%contact%load, state%contact%film_min, state%contact%shear], bits)
+   end function bits_of
 
    subroutine test_guide(error)
       type(error_type), allocatable, intent(out) :: error

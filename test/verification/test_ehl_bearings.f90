@@ -2,18 +2,20 @@
 module test_ehl_bearings
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_case, only : case_t
+   use camroller_ehl_balance, only : balanced_load
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_error, only : error_t
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, degree
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_pin_film, only : pin_state_t, solve_pin, unloaded_torque
    use camroller_result, only : get_series, result_t
    use camroller_run, only : run_case
    use camroller_skf_bearing, only : skf_state_t, solve_skf
+   use camroller_state, only : evaluate_state, state_t
    use closeness, only : check_close, expect_success
    use flexible_cases, only : choose_roller_bearing
-   use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
+   use reference_cases, only : add_joints, thesis_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
    private
 
@@ -25,10 +27,47 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
+         new_unittest("balanced loads are those of a contact by laws, with every bearing and with friction in joints", &
+            & test_balance), &
          new_unittest("a pin on its oil film and needles by SKF's model brake the roller", test_bearings), &
          new_unittest("with films of solved contacts they have the torque of their load and spin", test_films) &
          ]
    end subroutine collect_ehl_bearings
+
+   !> Traction and rolling resistance are given to one balance and come from the other, whose rounds are Newton's.
+   subroutine test_balance(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! On the base circle, where the finger is at rest, on both flanks and near the nose [degrees]
+      real(wp), parameter :: angles(5) = [170.0_wp, -50.0_wp, -25.0_wp, 3.0_wp, 40.0_wp]
+      ! [m/s]; both end at round-off, which the slopes of friction leave nearly as it is [-]
+      real(wp), parameter :: sliding_speed = 0.03_wp, tolerance = 1000*epsilon(1.0_wp)
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: state
+      real(wp) :: load ! [N]
+      integer :: number, joints, place, status
+
+      do number = 0, 3
+         do joints = 0, 2
+            case = thesis_case()
+            call set_point(case, point_speeds(2), point_viscosities(2))
+            call choose_roller_bearing(case, number)
+            if (joints == 1) call add_joints(case, "constant")
+            if (joints == 2) call add_joints(case, "stribeck")
+            call make_model(case, model, error)
+            if (allocated(error)) return
+            do place = 1, size(angles)
+               call evaluate_state(model, angles(place)*degree, sliding_speed, state, status)
+               call check(error, status, 0)
+               if (allocated(error)) return
+               load = balanced_load(model, state%position, state%moments, state%contact%traction, &
+                  & state%contact%rolling_resistance, sliding_speed)
+               call check_close(error, load, state%contact%load, tolerance, "load")
+               if (allocated(error)) return
+            end do
+         end do
+      end do
+   end subroutine test_balance
 
    !> The first row, on the base circle, where the finger is at rest.
    subroutine test_films(error)

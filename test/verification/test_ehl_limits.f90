@@ -16,7 +16,7 @@ module test_ehl_limits
    use camroller_lubricant, only : law_cameron
    use camroller_model, only : model_t
    use camroller_state, only : evaluate_loading
-   use camroller_traction, only : cap_smooth
+   use camroller_traction, only : cap_smooth, limit_local, limit_names
    use closeness, only : expect_error, has_failed
    use ehl_contacts, only : contact_of_groups
    use reference_cases, only : thesis_case, make_model, set_point
@@ -34,6 +34,8 @@ contains
          new_unittest("a film under next to no load is that of rigid bodies", test_light_load), &
          new_unittest("rolling resistance brakes a roller that runs backwards, and never drives it", test_backward), &
          new_unittest("a film with squeeze whose inlet changes sides ends in words", test_turned_inlet), &
+         new_unittest("over the cycle no shear is above limits at each place, and limits that nothing reaches change none", &
+            & test_limits_of_cycle), &
          new_unittest("a stress with a limit at each place is limited between the nodes of a spike too", test_limit_of_places) &
       ]
    end subroutine collect_ehl_limits
@@ -93,6 +95,47 @@ contains
             & > 0.0_wp), "the contact gives power")
       end associate
    end subroutine test_backward
+
+   !> Cycles of steady films with limits at each place: a thousandth of the pressure, which add up to that part of the load, and
+   !> such as no stress comes near, against those with a limit of the whole shear.
+   subroutine test_limits_of_cycle(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Rise of the limiting stress with the pressure [-]; least limits of all places, part of those of the pressure [-]
+      real(wp), parameter :: low = 1.0e-3_wp, high = 1.0e3_wp, allowed = 1.0e-6_wp
+      type(ehl_cycle_options_t), parameter :: options = ehl_cycle_options_t(nodes=65, is_transient=.false.)
+      type(case_t) :: case
+      type(model_t) :: model
+      type(ehl_cycle_t) :: limited, free, whole
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      call set_point(case, 30.0_wp*pi, 0.05_wp)
+      case%traction%limit = limit_names(limit_local)
+      case%traction%limiting_coefficient = low
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call integrate_ehl_cycle(limited, model, options, failure)
+      if (has_failed(failure, error)) return
+      associate (part => abs(limited%moments%shear)/(low*limited%moments%load))
+         call check(error, maxval(part) <= 1.0_wp + allowed .and. maxval(part) > 0.9_wp, "shear over its limits")
+      end associate
+      if (allocated(error)) return
+      case%traction%limiting_coefficient = high
+      case%traction%limiting_stress = 1.0e12_wp
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call integrate_ehl_cycle(free, model, options, failure)
+      if (has_failed(failure, error)) return
+      case%traction%limit = limit_names(1)
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call integrate_ehl_cycle(whole, model, options, failure)
+      if (has_failed(failure, error)) return
+      call check(error, size(free%moments), size(whole%moments), "steps")
+      if (allocated(error)) return
+      call check(error, all(abs(free%moments%shear - whole%moments%shear) <= allowed*maxval(abs(whole%moments%shear))), &
+         & "limits that are not reached change the shear")
+   end subroutine test_limits_of_cycle
 
    subroutine test_turned_inlet(error)
       type(error_type), allocatable, intent(out) :: error

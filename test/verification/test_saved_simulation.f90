@@ -1,11 +1,13 @@
 !> A follower between two steps as a block of bytes: the one made of it continues with the same bits; other blocks are refused.
 module test_saved_simulation
+   use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_value
    use, intrinsic :: iso_fortran_env, only : int8, int64
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller, only : wp, pi, case_t, error_t, inputs_t, kind_usage, outcome_t, shaft_simulation_t, simulation_t, advance, &
-      & restore_simulation, save_shaft, save_simulation, start_shaft, start_simulation
+   use camroller, only : wp, pi, case_t, error_t, inputs_t, kind_usage, outcome_t, shaft_outcome_t, shaft_simulation_t, &
+      & simulation_t, advance, advance_shaft, restore_simulation, save_shaft, save_simulation, start_shaft, start_simulation
    use deck_cases, only : get_deck_case
    use closeness, only : expect_error
+   use reference_cases, only : add_gas_force
    implicit none
    private
 
@@ -19,6 +21,8 @@ contains
       testsuite = [ &
          new_unittest("a follower made of a block continues with the same bits, at another speed and with other oil", test_bits), &
          new_unittest("with films solved beforehand at an earlier speed, too", test_films), &
+         new_unittest("a step that fails while films are solved again leaves those before it", test_failed_films), &
+         new_unittest("a step that one cam of a shaft fails leaves the films of the others as well", test_failed_cam), &
          new_unittest("a block is refused by a case that differs in what cold oil keeps apart alone", test_cold_cases), &
          new_unittest("with a flexible train, too", test_trains), &
          new_unittest("a block of a case with other oil or gas pressure that no state shows is refused", test_other_cases), &
@@ -53,6 +57,82 @@ contains
       if (.not. allocated(error)) call compare_bits("decks/numerical_film.nml", [25.0_wp, 31.25_wp, 31.25_wp], &
          & spread(333.0_wp, 1, 3), error)
    end subroutine test_films
+
+   !> The speed of the step that fails is beyond the range of numerical solutions.
+   subroutine test_failed_films(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(inputs_t), parameter :: steady = inputs_t(speed=25.0_wp, oil_temperature=333.0_wp), &
+         & failing = inputs_t(speed=1.0e10_wp, oil_temperature=333.0_wp)
+      type(case_t) :: case
+      type(simulation_t) :: follower, other
+      type(outcome_t) :: outcome, expected
+      type(error_t), allocatable :: failure
+
+      call get_deck_case("decks/numerical_film.nml", case, failure)
+      case%operating_point%speed = steady%speed
+      case%operating_point%oil_temperature = steady%oil_temperature
+      if (.not. allocated(failure)) call start_simulation(follower, case, 2.4_wp, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      other = follower
+      call advance(follower, 2.8_wp, failing, failing, outcome, failure)
+      call check(error, allocated(failure), "no error")
+      if (allocated(error)) return
+      call advance(other, 2.8_wp, steady, steady, expected, failure)
+      if (.not. allocated(failure)) call advance(follower, 2.8_wp, steady, steady, outcome, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call check(error, all(bits_of(outcome) == bits_of(expected)), "bits differ")
+   end subroutine test_failed_films
+
+   !> The first cam has made the step, with warmer oil and its films, before the second one refuses its pressure.
+   subroutine test_failed_cam(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(inputs_t), parameter :: steady = inputs_t(speed=25.0_wp, oil_temperature=333.0_wp), &
+         & warm = inputs_t(speed=25.0_wp, oil_temperature=340.0_wp)
+      ! Pressures of both cams at both ends [Pa]
+      real(wp) :: pressures(2, 2)
+      type(case_t) :: case
+      type(shaft_simulation_t) :: shaft, other
+      type(shaft_outcome_t) :: outcome, expected
+      type(error_t), allocatable :: failure
+      integer :: cam
+
+      call get_deck_case("decks/numerical_film.nml", case, failure)
+      case%operating_point%speed = steady%speed
+      case%operating_point%oil_temperature = steady%oil_temperature
+      case%cam_bearings%cam_positions = [0.02_wp, 0.04_wp]
+      case%cam_bearings%cam_phases = [0.0_wp, 0.5_wp*pi]
+      case%cam_bearings%cam_lobes = [1, 1]
+      case%cam_bearings%follower_angles = [0.0_wp, 0.0_wp]
+      call add_gas_force(case)
+      if (.not. allocated(failure)) call start_shaft(shaft, case, 2.4_wp, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      other = shaft
+      pressures(1, :) = 0.0_wp
+      pressures(2, :) = ieee_value(1.0_wp, ieee_positive_inf)
+      call advance_shaft(shaft, 2.8_wp, warm, warm, outcome, failure, pressures)
+      call expect_error(error, failure, kind_usage, "cam 2")
+      if (allocated(error)) return
+      deallocate (failure)
+      call advance_shaft(other, 2.8_wp, steady, steady, expected, failure)
+      if (.not. allocated(failure)) call advance_shaft(shaft, 2.8_wp, steady, steady, outcome, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      do cam = 1, 2
+         call check(error, all(bits_of(outcome%followers(cam)) == bits_of(expected%followers(cam))), "bits differ")
+         if (allocated(error)) return
+      end do
+   end subroutine test_failed_cam
 
    !> Save a follower in the middle of a turn; drive it and the one made of the block on.
    subroutine compare_bits(path, speeds, temperatures, error)
