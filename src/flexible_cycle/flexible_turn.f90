@@ -41,7 +41,7 @@ module camroller_flexible_turn
    !> Sliding speed that is none, however slow the cam, over that of the surface of a roller that turns with it [-]
    real(wp), parameter :: no_slip = 1.0e-6_wp
    !> Error of the traction that one of the sliding speed makes in a step, over the largest traction and the tolerance of the step;
-   !> the largest, over the first of these [-]. A quarter of the first takes up to 6 % more evaluations
+   !> the largest, over the first of these [-]. Default decks take as many steps as without it, but 6 % more where contacts open
    real(wp), parameter :: friction_ratio = 50.0_wp, largest_friction_error = 0.01_wp
    !> Steps of a cycle after which it is given up: a hundred times as many as usual
    integer, parameter :: most_steps = 400000
