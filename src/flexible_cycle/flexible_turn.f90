@@ -17,7 +17,7 @@ module camroller_flexible_turn
    use camroller_ode_switching, only : integrate_switching
    use camroller_step_control, only : shortest_step
    use camroller_trajectory, only : trajectory_t
-   use camroller_flexible_train, only : flexible_state_t, evaluate_train, state_size, at_finger, at_sliding
+   use camroller_flexible_train, only : flexible_state_t, evaluate_train, state_size, at_finger, at_lift, at_sliding
    use camroller_lash_adjuster, only : bulk_modulus, evaluate_flows, flows_t
    use camroller_number_text, only : integer_text, millimetres_text, number_text
    use camroller_flexible_problem, only : flexible_problem_t, set_scales
@@ -40,6 +40,9 @@ module camroller_flexible_turn
    real(wp), parameter :: least_steps = 20.0_wp
    !> Sliding speed that is none, however slow the cam, over that of the surface of a roller that turns with it [-]
    real(wp), parameter :: no_slip = 1.0e-6_wp
+   !> Error of the traction that one of the sliding speed makes in a step, over the largest traction and the tolerance of the step;
+   !> the largest, over the first of these [-]. Default decks take as many steps as without it, but 6 % more where contacts open
+   real(wp), parameter :: friction_ratio = 50.0_wp, largest_friction_error = 0.01_wp
    !> Steps of a cycle after which it is given up: a hundred times as many as usual
    integer, parameter :: most_steps = 400000
 
@@ -108,6 +111,7 @@ contains
       turn%problem%switches = 3
       turn%problem%markers = 1
       turn%problem%resolution%forces = contact_accuracy*tolerance
+      turn%problem%friction_error = friction_error_for(tolerance)
       if (allocated(turn%scales)) then
          if (size(turn%scales) /= turn%components) deallocate (turn%scales)
       end if
@@ -131,8 +135,19 @@ contains
       real(wp), intent(in) :: tolerance(:)
 
       turn%options%tolerance = tolerance
+      turn%problem%friction_error = friction_error_for(tolerance(at_lift)/turn%scales(at_lift))
       call set_sliding_tolerance(turn, tolerance(at_sliding))
    end subroutine set_tolerance
+
+   !> Error of the traction that is allowed for one of the sliding speed.
+   pure function friction_error_for(tolerance) result(error)
+      !> Error allowed per step, in units of the scales [-]
+      real(wp), intent(in) :: tolerance
+      !> The error, over the largest traction [-]
+      real(wp) :: error
+
+      error = min(friction_ratio*tolerance, largest_friction_error)
+   end function friction_error_for
 
    !> Set the error of the sliding speed that is allowed in a step, and with it what is not resolved of that speed.
    pure subroutine set_sliding_tolerance(turn, tolerance)

@@ -4,6 +4,7 @@
 !> and where the roller passes a kink of the lift.
 module camroller_flexible_problem
    use camroller_cam_angle, only : cam_angle_text
+   use camroller_contact_traction, only : largest_traction_rate
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : linear_t, counters_t, factors_t, words_length
    use camroller_ode_switching, only : switching_problem_t
@@ -11,7 +12,7 @@ module camroller_flexible_problem
    use camroller_model, only : model_t
    use camroller_ramp, only : follow_ramp
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, rates_of, state_size, first_mode, &
-      & pad_approach, pad_direction, at_finger, at_finger_rate, at_lift, at_plunger, at_plunger_rate
+      & pad_approach, pad_direction, at_finger, at_finger_rate, at_lift, at_plunger, at_plunger_rate, at_sliding
    use camroller_flexible_geometry, only : touch_t, find_touch
    use camroller_flexible_jacobian, only : slopes_of
    use camroller_flexible_equations, only : factorise_train, solve_train
@@ -22,6 +23,9 @@ module camroller_flexible_problem
 
    !> Size of the sliding speed to which its error is relative, at most [m/s]
    real(wp), parameter, public :: largest_sliding_scale = 0.1_wp
+   !> Width of the range of sliding speeds within which the traction of a film as good as solid goes from 0.85 of one limit to as
+   !> much of the other, over the difference that is not told apart [-]
+   real(wp), parameter :: range_width = 2.5_wp
 
    !> A flexible train over the cam angle
    type, extends(switching_problem_t) :: flexible_problem_t
@@ -29,6 +33,8 @@ module camroller_flexible_problem
       type(model_t), pointer :: model => null()
       !> What need not be told apart
       type(resolution_t) :: resolution
+      !> Error of the traction that is allowed for one of the sliding speed, over the largest traction [-]
+      real(wp) :: friction_error = 1.0_wp
    contains
       procedure :: get_rate
       procedure :: linearise
@@ -124,6 +130,11 @@ contains
          call evaluate_train(model, time, state, resolution, now, status)
          if (status /= 0) return
          call rates_of(model, state, now, linear%rate)
+         linear%saturating = at_sliding
+         linear%resolution = self%friction_error
+         linear%width = range_width*self%resolution%sliding_speed
+         linear%span = huge(1.0_wp)
+         if (now%contact%is_touching) linear%span = largest_traction_rate(model, now%contact)
          call slopes_of(model, time, state, now, linear%jacobian, linear%time_slope)
          if (abs(model%speed_slope) > 0.0_wp) linear%time_slope = linear%time_slope - (model%speed_slope/model%speed)*linear%rate
       end associate

@@ -22,7 +22,7 @@ module camroller_contact_traction
    implicit none
    private
 
-   public :: set_traction, follow_traction, has_hot_boundary, largest_shear
+   public :: set_traction, follow_traction, has_hot_boundary, largest_shear, largest_traction_rate
 
    !> Change of ln(viscosity) by a step of the temperature that may be the last: the shear follows it linearly to its square [-]
    real(wp), parameter :: last_step = 1.0e-7_wp
@@ -241,6 +241,18 @@ contains
       force = model%limiting_coefficient*contact%load
       if (model%has_local_limit) force = force + model%limiting_stress*contact%sheared_area
    end function largest_shear
+
+   !> Rate of the sliding speed that traction makes at most.
+   elemental function largest_traction_rate(model, contact) result(rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> The rate [m/s per rad]
+      real(wp) :: rate
+
+      rate = model%roller_radius**2/(model%roller_inertia*model%speed)*(largest_shear(model, contact) + contact%boundary_capacity)
+   end function largest_traction_rate
 
    !> Rise of the surfaces' temperature that the heat of friction keeps, whose boundary part follows that temperature, and friction
    !> there. The search starts at the oil's temperature, so that a contact nearby has no part in the choice among several roots.

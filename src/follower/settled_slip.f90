@@ -5,7 +5,7 @@
 !> equation has that slope. A difference of 1e-15 m/s in the sliding speed decides between traction below and at its limit: an
 !> error that is negligible for the slip is large for the traction.
 module camroller_settled_slip
-   use camroller_contact_traction, only : largest_shear
+   use camroller_contact_traction, only : largest_traction_rate
    use camroller_kinds, only : two_pi, wp
    use camroller_model, only : model_t
    use camroller_ode_bridge, only : solve_euler
@@ -49,8 +49,7 @@ contains
       is_moved = .false.
       if (.not. state%contact%is_touching .or. .not. reach > 0.0_wp) return
       rate = slip_rate(model, state%position, state%spin_acceleration)
-      span = model%roller_radius**2/(model%roller_inertia*model%speed)*(largest_shear(model, state%contact) &
-         & + state%contact%boundary_capacity)
+      span = largest_traction_rate(model, state%contact)
       if (abs(rate - slope) <= small_part*span) return
       call take_step(model, angle, slope, rate, span, reach, state, sliding_speed, is_moved)
    end subroutine settle

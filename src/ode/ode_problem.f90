@@ -52,6 +52,10 @@ module camroller_ode_problem
       real(wp) :: span = huge(1.0_wp)
       !> Error of the rate that is allowed for an error of the state, over the rate, where something saturates [-]
       real(wp) :: resolution = 1.0_wp
+      !> Component of the state whose rate that is
+      integer :: saturating = 1
+      !> Width of the range within which it saturates [state]
+      real(wp) :: width = 0.0_wp
       !> From the first component to the barrier, see `get_clearance` [state]
       real(wp) :: clearance = huge(1.0_wp)
    end type linear_t
@@ -131,6 +135,8 @@ contains
       linear%time_slope = 0.0_wp
       linear%span = huge(1.0_wp)
       linear%resolution = 1.0_wp
+      linear%saturating = 1
+      linear%width = 0.0_wp
       linear%clearance = huge(1.0_wp)
    end subroutine new_linear
 
@@ -158,6 +164,8 @@ contains
       target%time_slope(:) = source%time_slope
       target%span = source%span
       target%resolution = source%resolution
+      target%saturating = source%saturating
+      target%width = source%width
    end subroutine copy_linear
 
    !> Rate and its derivatives, one after the other.

@@ -12,7 +12,7 @@ module camroller_ode_switching
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
    use camroller_step_control, only : control_t, impossible_error, last_part, next_step, safety, shorter_step
-   use camroller_step_checks, only : check_progress
+   use camroller_step_checks, only : check_end, check_progress
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_straight, append_cubic, curve_state, least_segment, &
       & stop_margin
    implicit none
@@ -392,6 +392,7 @@ contains
          if (method%needs_jacobian) then
             call problem%linearise(step%end_time, step%new_state, method%horizon, method%there, counters, status)
             step%new_rate(:) = method%there%rate
+            if (status == 0) call check_end(method%here, method%there, step)
          end if
          if (status /= 0) step%scaled_error = impossible_error
       end associate

@@ -4,11 +4,11 @@ module test_ode_switching
    use camroller_kinds, only : wp, two_pi, pi
    use camroller_error, only : error_t, kind_convergence
    use camroller_contact_compliance, only : one_sided_force
-   use camroller_ode_problem, only : counters_t, words_length
+   use camroller_ode_problem, only : counters_t, linear_t, words_length
    use camroller_ode_method, only : method_t, options_t
    use camroller_ode_methods, only : new_method
    use camroller_ode_switching, only : switching_problem_t, integrate_switching
-   use camroller_trajectory, only : trajectory_t
+   use camroller_trajectory, only : interpolate_state, trajectory_t
    implicit none
    private
 
@@ -32,6 +32,18 @@ module test_ode_switching
       procedure :: name_time
    end type body_t
 
+   !> A slide that friction catches: `y' = drive - friction tanh(y/narrow)`. From far below zero the speed rises at `drive +
+   !> friction` and comes to rest, without ever passing it, where both balance each other
+   type, extends(switching_problem_t) :: slide_t
+      !> Steady drive, largest friction [m/s^2]; speed within which friction changes its sign [m/s]
+      real(wp) :: drive = 30.0_wp, friction = 330.0_wp, narrow = 8.0e-5_wp
+   contains
+      procedure :: get_rate => slide_rate
+      procedure :: linearise => linearise_slide
+      procedure :: get_switches => no_switches
+      procedure :: name_time => name_slide
+   end type slide_t
+
    !> Methods that are tried
    character(len=*), parameter :: methods(*) = [character(len=14) :: "rodas5p", "radau5", "dormand_prince"]
 
@@ -45,6 +57,7 @@ contains
          new_unittest("a valve bounces under its spring", test_bounce), &
          new_unittest("steps end where contacts are lost and return", test_kinks), &
          new_unittest("a contact that rests at zero but for rounding ends few steps", test_hovering), &
+         new_unittest("friction that catches a slide is at no time and no place larger than what holds it", test_catch), &
          new_unittest("steps end where a marker passes whole numbers, forwards and backwards", test_markers), &
          new_unittest("an integration that takes too much, or too short steps, ends with that reason", test_endings) &
          ]
@@ -229,6 +242,103 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_endings
+
+   subroutine test_catch(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Starts, parts of a step that are looked at; steps tried at most, of which 20 to 50 are taken
+      integer, parameter :: starts = 1000, parts = 16, most = 100
+      ! Error of friction over the largest one: the slide may be told apart no better than by half of the speed within which it
+      ! changes its sign, but steps are shortened to this error of friction; the curves between may have as much again [-]
+      real(wp), parameter :: allowed = 0.02_wp
+      type(slide_t) :: slide
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+      type(counters_t) :: counters
+      type(trajectory_t) :: path
+      type(error_t), allocatable :: failure
+      ! Speed [m/s], time [s], friction over its largest value [-]
+      real(wp) :: state(1), time, largest
+      integer :: i, k, step, part, hint
+
+      options%tolerance = [0.5_wp*slide%narrow]
+      do k = 1, 2
+         call new_method(method, methods(k), 1, failure)
+         do i = 1, starts
+            state = -slide%narrow*10.0_wp**(1.0_wp + 3.0_wp*i/starts)
+            options%step = 1.0e-5_wp
+            counters = counters_t()
+            call integrate_switching(slide, method, options, [0.0_wp, 5.0e-3_wp], state, path, counters, failure)
+            if (allocated(failure)) then
+               call test_failed(error, failure%message)
+               return
+            end if
+            largest = 0.0_wp
+            do step = 1, path%count - 1
+               do part = 0, parts
+                  hint = step
+                  time = path%time(step) + (path%time(step + 1) - path%time(step))*part/parts
+                  call interpolate_state(path, time, hint, state)
+                  largest = max(largest, tanh(state(1)/slide%narrow))
+               end do
+            end do
+            call check(error, largest <= slide%drive/slide%friction + allowed, "friction passes what holds the slide, by "// &
+               & trim(methods(k)))
+            if (.not. allocated(error)) call check(error, counters%accepted + counters%rejected <= most, "too many steps")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_catch
+
+   !> Rate of the speed of a slide.
+   subroutine slide_rate(self, time, state, rate, status)
+      class(slide_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(out) :: rate(:)
+      integer, intent(out) :: status
+
+      status = merge(0, 1, time >= 0.0_wp)
+      rate = self%drive - self%friction*tanh(state/self%narrow)
+   end subroutine slide_rate
+
+   !> The same with its derivative, and with what saturates as a train has it.
+   subroutine linearise_slide(self, time, state, horizon, linear, counters, status)
+      class(slide_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(in) :: horizon
+      type(linear_t), intent(inout) :: linear
+      type(counters_t), intent(inout) :: counters
+      integer, intent(out) :: status
+
+      call self%get_rate(min(time, horizon), state, linear%rate, status)
+      counters%evaluations = counters%evaluations + 1
+      linear%jacobian(1, 1) = -self%friction/self%narrow/cosh(min(abs(state(1)/self%narrow), 300.0_wp))**2
+      linear%time_slope = 0.0_wp
+      linear%span = self%friction
+      linear%width = 2.5_wp*self%narrow
+      linear%resolution = 0.01_wp
+   end subroutine linearise_slide
+
+   !> A slide has no switches.
+   subroutine no_switches(self, time, state, switches, status)
+      class(slide_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(out) :: switches(:)
+      integer, intent(out) :: status
+
+      status = merge(0, 1, time >= 0.0_wp .and. size(state) > self%switches)
+      switches = 0.0_wp
+   end subroutine no_switches
+
+   function name_slide(self, time) result(text)
+      class(slide_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      character(len=words_length) :: text
+
+      text = merge("slide ", "before", time >= 0.0_wp .and. self%switches == 0)
+   end function name_slide
 
    !> Rate of place and speed.
    subroutine get_rate(self, time, state, rate, status)

@@ -1,7 +1,8 @@
 !> Every deck of a flexible train: those in `decks/hard/dynamics`, which are hard to integrate, and convergence of all of them.
 module test_hard_dynamics
    use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
-   use camroller_kinds, only : wp, pi, two_pi
+   use camroller, only : advance, get_summary, outcome_t, result_t, run_case, simulation_t, start_simulation
+   use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
@@ -12,8 +13,9 @@ module test_hard_dynamics
    use camroller_ode_problem, only : counters_t
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, loss_torque, residual_work
-   use closeness, only : check_close, check_scaled
+   use closeness, only : check_close, check_scaled, has_failed
    use deck_cases, only : get_deck_case
+   use driven_trains, only : steady
    use run_settings, only : has_checks
    implicit none
    private
@@ -45,7 +47,9 @@ contains
             & test_periodic), &
          new_unittest("trains that lose contact: two methods agree on the first turn, energy closes, steps are few", test_flying), &
          new_unittest("load and losses of every deck of a flexible train converge with the tolerance", test_convergence), &
-         new_unittest("a roller that slides on a film as good as solid comes to rest, however small the tolerance", test_solid) &
+         new_unittest("a roller that slides on a film as good as solid comes to rest, however small the tolerance", test_solid), &
+         new_unittest("a roller caught after a flight: extremes of a step are those at the ends of its parts", test_caught), &
+         new_unittest("no turn of a train that flies brakes a roller that lags behind", test_lagging) &
          ]
    end subroutine collect_hard_dynamics
 
@@ -182,6 +186,75 @@ contains
       if (deck_name == hard//"overspeed_adjuster") has_fallen = errors(2) < 0.5_wp*tolerances(2)
       call check(error, has_fallen, deck_name//": the error of the losses does not fall with the tolerance")
    end subroutine converge
+
+   !> The landing film catches a roller that has lost speed: friction falls from its limit to what holds the roller, and nowhere
+   !> turns its sign. The largest torque of a step is one that its parts end with.
+   subroutine test_caught(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: decks(*) = [character(len=name_length) :: "overspeed", "overspeed_adjuster"]
+      ! Parts of a step; steps a turn before it, its first and last angle [deg]
+      integer, parameter :: parts = 2000, steps(*) = [36, 180, 360, 720], first = 250, last = 260
+      ! Error over the range of the torque: an accuracy of 1e-3, of the step and of its parts [-]
+      real(wp), parameter :: allowed = 2.0e-3_wp
+      type(case_t) :: case
+      type(error_t), allocatable :: failure
+      type(simulation_t) :: simulation, divided
+      type(outcome_t) :: outcome
+      ! Smallest and largest torque at the ends of the parts [N m]; cam angle at the end of a part [rad]
+      real(wp) :: ends(2), angle
+      integer :: deck, split, i
+
+      do deck = 1, size(decks)
+         call get_deck_case("decks/"//hard//trim(decks(deck))//".nml", case, failure)
+         do split = 1, size(steps)
+            if (.not. allocated(failure)) call start_simulation(simulation, case, 0.0_wp, failure)
+            do i = 1, first*steps(split)/360
+               if (.not. allocated(failure)) call advance(simulation, two_pi*i/steps(split), steady(case), steady(case), outcome, &
+                  & failure)
+            end do
+            if (has_failed(failure, error)) return
+            divided = simulation
+            ends = outcome%torque_drive
+            do i = 1, parts
+               angle = (first + real(last - first, wp)*i/parts)*degree
+               if (.not. allocated(failure)) call advance(divided, angle, steady(case), steady(case), outcome, failure)
+               ends = [min(ends(1), outcome%torque_drive), max(ends(2), outcome%torque_drive)]
+            end do
+            if (.not. allocated(failure)) call advance(simulation, last*degree, steady(case), steady(case), outcome, failure)
+            if (has_failed(failure, error)) return
+            associate (torque => outcome%extremes%torque_drive, width => allowed*(ends(2) - ends(1)))
+               call check(error, torque(2) < ends(2) + width .and. torque(1) > ends(1) - width, trim(decks(deck))// &
+                  & ": the torque within a step is beyond that at all its places")
+            end associate
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_caught
+
+   !> Over the turns of its statistics the deck flies and lands; each landing drives the roller, by friction at its limit. What
+   !> brakes it is a tenth of that at most, by the cam's own acceleration.
+   subroutine test_lagging(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Largest friction that brakes over the one that drives [-]: 0.09, and 0.98 where a step passes the range of sticking
+      real(wp), parameter :: part = 0.2_wp
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Largest and smallest traction [N]
+      real(wp) :: most, least
+      integer :: i
+
+      do i = 2, 3
+         call get_deck_case("decks/"//hard//"overspeed.nml", case, failure)
+         case%numerics%tolerance = 10.0_wp**(-i)
+         if (.not. allocated(failure)) call run_case(case, result, failure)
+         if (.not. allocated(failure)) call get_summary(result, "max_traction", most, failure)
+         if (.not. allocated(failure)) call get_summary(result, "min_traction", least, failure)
+         if (has_failed(failure, error)) return
+         call check(error, most < part*abs(least), "friction brakes the roller")
+         if (allocated(error)) return
+      end do
+   end subroutine test_lagging
 
    !> Friction stops the roller within 1e-10 rad, and the steps that follow are those of a roller at rest.
    subroutine test_solid(error)
