@@ -385,8 +385,8 @@ contains
       width = part%length/size(part%loads, 1)
    end function slice_width
 
-   !> Largest load along the roller and at its ends. The load at an end is the mean over the last slice of the roller, and where load
-   !> grows towards an end, no more than that is its largest.
+   !> Largest load along the roller and at its ends. The load at an end is the mean over the last slice of the roller, and where
+   !> load grows towards an end, no more than that is its largest.
    pure function axial_state(part, load, radius) result(state)
       !> The table
       type(axial_part_t), intent(in) :: part

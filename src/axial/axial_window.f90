@@ -112,8 +112,8 @@ contains
       if (abs(profile%tilt) <= 0.0_wp) window%loads = 0.5_wp*(window%loads + window%loads(n:1:-1))
    end subroutine solve_window
 
-   !> Slices of a part over which the loads at its ends mean nothing, since the contact is wider than they are long: the width of the
-   !> mean load, at most half of the part; zero where the part does not end with the roller.
+   !> Slices of a part over which the loads at its ends mean nothing, since the contact is wider than they are long: the width of
+   !> the mean load, at most half of the part; zero where the part does not end with the roller.
    pure function unclear_ends(window, length, modulus, load, radius) result(reach)
       !> The part
       type(window_t), intent(in) :: window
@@ -129,8 +129,8 @@ contains
       where (abs(window%bounds) < 0.5_wp) reach = 0.0_wp
    end function unclear_ends
 
-   !> Take the means of the loads at the ends of a part where slices are more than one and the load grows towards the end: at a sharp
-   !> end of a roller it has no limit.
+   !> Take the means of the loads at the ends of a part where slices are more than one and the load grows towards the end: at a
+   !> sharp end of a roller it has no limit.
    pure subroutine blunt_ends(loads, reach)
       !> Loads over their mean [-]
       real(wp), intent(inout) :: loads(:)
