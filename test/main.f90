@@ -27,6 +27,7 @@ program main
    use test_axial, only : collect_axial
    use test_axial_follower, only : collect_axial_follower
    use test_axial_lengths, only : collect_axial_lengths
+   use test_axial_window, only : collect_axial_window
    use test_boundary_law, only : collect_boundary_law
    use test_friction_modifier, only : collect_friction_modifier
    use test_running_in, only : collect_running_in
@@ -244,6 +245,7 @@ contains
          new_testsuite("axial", collect_axial), &
          new_testsuite("axial_follower", collect_axial_follower), &
          new_testsuite("axial_lengths", collect_axial_lengths), &
+         new_testsuite("axial_window", collect_axial_window), &
          new_testsuite("friction_modifier", collect_friction_modifier), &
          new_testsuite("running_in", collect_running_in), &
          new_testsuite("flexible_running_in", collect_flexible_running_in), &

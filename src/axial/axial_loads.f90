@@ -2,12 +2,11 @@
 !>
 !> In: table of loads, load, radius. Out: load per length of each slice. Between the points of the table loads are cubics of the
 !> logarithm of the load, which slices where the load begins and ends do not follow: they lift off. From there the equations of the
-!> slices are solved, where the slices resolve the contact.
+!> slices of the loaded part are solved, and the slices of the roller have their means.
 module camroller_axial_loads
+   use camroller_axial_table, only : axial_part_t, window_between
+   use camroller_axial_window, only : load_window, spread_loads, window_t
    use camroller_kinds, only : wp
-   use camroller_axial_table, only : axial_part_t, slice_loads
-   use camroller_roller_profile, only : coupling_half_space, coupling_names
-   use camroller_slices, only : load_slices, new_slices, slices_t
    implicit none
    private
 
@@ -24,16 +23,18 @@ contains
       !> Loads per length over W/L; zero without a load [-]
       real(wp), intent(out) :: loads(:)
 
-      type(slices_t) :: slices
-      real(wp) :: solution(size(loads)), approach ! [-], [m]
+      type(window_t) :: solution, known
       integer :: status
 
-      call slice_loads(part, load, radius, loads)
-      if (.not. load > part%modulus*part%length**2*exp(part%first)) return
-      call new_slices(slices, part%length, part%modulus, part%gaps, part%profile%coupling == coupling_names(coupling_half_space))
-      solution = loads
-      call load_slices(slices, load, radius, solution, approach, status)
-      if (status == 0) loads = solution
+      loads = 0.0_wp
+      if (.not. load > 0.0_wp) return
+      call window_between(part, load, radius, known)
+      solution = known
+      status = 1
+      if (load > part%modulus*part%length**2*exp(part%first)) call load_window(solution, part%profile, part%length, part%modulus, &
+         & load, radius, status)
+      if (status /= 0) solution = known
+      call spread_loads(solution, [-0.5_wp, 0.5_wp], loads)
    end subroutine solved_loads
 
 end module camroller_axial_loads

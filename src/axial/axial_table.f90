@@ -7,32 +7,25 @@
 !> length is the mean of w weighted with the load, so that a friction `mu(w) w` of the slices adds up to `mu(W/L_e) W` to first
 !> order in the differences of w. Rolling resistance does not go with the load: two further lengths stand for it.
 !>
-!> Loads are solved at points equally spaced in the logarithm of the load, for some radii; the logarithms of the lengths between
-!> them are cubics of that logarithm and polynomials of ln R. Contact far narrower than the roller has few slices: where they do
-!> not resolve it, below, the lengths are powers of the load, and the loads keep their shape on a part of the roller that is
-!> shorter as they are. Where the roller still carries all along at the smallest load of the table, lengths stay as they are there.
+!> Loads are solved at points equally spaced in the logarithm of the load, for some radii, in slices of the part of the roller that
+!> carries load there; the logarithms of the lengths between them are cubics of that logarithm and polynomials of ln R, and so are
+!> the loads of the slices and where their part begins and ends. Below the smallest load the lengths are powers of the load, and the
+!> loads keep their shape on a part of the roller that is shorter as they are. Where the roller still carries all along at the
+!> smallest load of the table, lengths stay as they are there.
 module camroller_axial_table
    use camroller_kinds, only : wp, pi
    use camroller_axial_gaps, only : axial_gaps_t, depth_of, new_axial_gaps, part_within
-   use camroller_error, only : error_t, raise, kind_convergence, kind_deck
-   use camroller_number_text, only : integer_text, number_text
-   use camroller_roller_profile, only : roller_profile_t, check_roller_profile, coupling_half_space, coupling_names, profile_gap
-   use camroller_slices, only : slices_t, load_slices, new_slices
+   use camroller_axial_points, only : group_step, solve_points
+   use camroller_axial_window, only : blunt_ends, load_up_to, loaded_ends, spread_loads, window_t
+   use camroller_error, only : error_t
+   use camroller_roller_profile, only : roller_profile_t, check_roller_profile, profile_gap
    use camroller_traction, only : line_lengths_t
    implicit none
    private
 
    public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_lengths, slice_loads, &
-      & slice_width, axial_state, oiled_parts
+      & slice_width, axial_state, oiled_parts, window_between
 
-   !> Largest W/(E' R L), at the largest radius; steps of ln(load), their most [-]; the first is a peak
-   !> pressure of about 4.5 GPa with steel
-   real(wp), parameter :: largest_group = 2.5e-3_wp, group_step = 0.6_wp
-   integer, parameter :: most_points = 24
-   !> Fewest slices that resolve a contact
-   integer, parameter :: fewest_loaded = 7
-   !> Fewest points, for cubic polynomials
-   integer, parameter :: fewest_points = 4
    !> Most radii
    integer, parameter :: most_radii = 4
    !> Logarithm of the range that each radius more covers, and of that beyond the range [-]
@@ -46,8 +39,7 @@ module camroller_axial_table
       type(roller_profile_t) :: profile
       !> The numbers [m], [Pa], [m]
       real(wp) :: length, modulus, radii(2)
-      !> Gaps of the unloaded bodies in the middle of each slice, zero where they touch first [m]; parts of the roller within a gap
-      real(wp), allocatable :: gaps(:)
+      !> Parts of the roller where the unloaded bodies are within a gap
       type(axial_gaps_t) :: parts_within
       !> ln(W/(E' L^2)) of the first and the last point, ln(R/L) of the radii [-]
       real(wp) :: first, last
@@ -55,8 +47,9 @@ module camroller_axial_table
       !> Logarithms of the lengths over L, in the order of `line_lengths_t`, and their slopes over ln(W/(E' L^2)), shape (length, 2,
       !> point, radius) [-]
       real(wp), allocatable :: log_lengths(:, :, :, :)
-      !> Loads per length over their mean, shape (slice, point, radius) [-]
-      real(wp), allocatable :: loads(:, :, :)
+      !> Loads per length of the slices of a part of the roller over their mean, shape (slice, point, radius) [-]; where the part
+      !> begins and ends, shape (2, point, radius) [L]
+      real(wp), allocatable :: loads(:, :, :), bounds(:, :, :)
    end type axial_part_t
 
    !> What matters of the loads at one state
@@ -80,9 +73,8 @@ contains
       !> Deck error; convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(slices_t) :: slices
-      ! Middle of the ln(R/L), half of their range [-]; places of the slices [m]
-      real(wp) :: middle, reach, places(profile%slices)
+      ! Middle of the ln(R/L), half of their range [-]; places of slices, gaps there, zero where the bodies touch first [m]
+      real(wp) :: middle, reach, places(profile%slices), gaps(profile%slices)
       integer :: i, count
 
       call check_roller_profile(profile, error)
@@ -92,10 +84,8 @@ contains
       part%modulus = modulus
       part%radii = radii
       places = slice_place([(i, i=1, profile%slices)], profile%slices, length)
-      call new_slices(slices, length, modulus, profile_gap(profile, length, modulus, places), &
-         & profile%coupling == coupling_names(coupling_half_space))
-      part%gaps = slices%gaps
-      part%parts_within = new_axial_gaps(slices%gaps)
+      gaps = profile_gap(profile, length, modulus, places)
+      part%parts_within = new_axial_gaps(gaps - minval(gaps))
       middle = 0.5_wp*log(radii(1)*radii(2)/length**2)
       reach = 0.5_wp*log(radii(2)/radii(1)) + radius_margin
       count = min(most_radii, 2 + int(2.0_wp*reach/radius_step))
@@ -103,73 +93,10 @@ contains
       do i = 1, count
          part%log_radii(i) = middle + reach*cos(pi*(i - 0.5_wp)/count)/cos(0.5_wp*pi/count)
       end do
-      call solve_loads(part, slices, error)
+      call solve_points(profile, length, modulus, part%log_radii, part%first, part%last, part%loads, part%bounds, error)
       if (allocated(error)) return
       call fit_lengths(part)
    end subroutine new_axial_part
-
-   !> Loads at all points of the table, from the largest load on down as long as slices resolve the contact.
-   subroutine solve_loads(part, slices, error)
-      !> The table
-      type(axial_part_t), intent(inout) :: part
-      !> The contact
-      type(slices_t), intent(in) :: slices
-      !> Deck error; convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Loads from the largest on, shape (slice, point, radius), of one contact [-]; load [N], radius, approach [m]
-      real(wp), allocatable :: all(:, :, :)
-      real(wp) :: loads(size(slices%gaps)), load, radius, approach
-      integer :: i, k, points, status
-
-      allocate (all(size(loads), most_points, size(part%log_radii)))
-      part%last = log(largest_group) + maxval(part%log_radii)
-      points = most_points
-      do k = 1, size(part%log_radii)
-         radius = part%length*exp(part%log_radii(k))
-         loads = 1.0_wp
-         do i = 1, points
-            load = exp(part%last - group_step*(i - 1))*part%modulus*part%length**2
-            if (i > 1) call foresee_loads(all, i, k, loads)
-            call load_slices(slices, load, radius, loads, approach, status)
-            if (status /= 0) then
-               call raise(error, kind_convergence, "roller profile: no loads of the slices found for "//number_text(load, 4)//" N")
-               return
-            end if
-            if (count(loads > 0.0_wp) < fewest_loaded) then
-               points = i - 1
-               exit
-            end if
-            ! Without tilt both sides have the same loads, whose rounding is not to choose between them
-            if (abs(part%profile%tilt) <= 0.0_wp) loads = 0.5_wp*(loads + loads(size(loads):1:-1))
-            all(:, i, k) = loads
-         end do
-      end do
-      if (points < fewest_points) then
-         call raise(error, kind_deck, "roller profile: the contact is narrower than "//integer_text(fewest_loaded)// &
-            & " slices; take more slices, or less crown or tilt")
-         return
-      end if
-      part%loads = all(:, points:1:-1, :)
-      part%first = part%last - group_step*(points - 1)
-   end subroutine solve_loads
-
-   !> Where to look for the loads at a point: those of the radius before, as far from its own as at the load before; at the first
-   !> radius along a straight line through the two loads before.
-   pure subroutine foresee_loads(all, point, radius, loads)
-      !> Loads found so far, shape (slice, point, radius) [-]
-      real(wp), intent(in) :: all(:, :, :)
-      !> Which point after the first, which radius
-      integer, intent(in) :: point, radius
-      !> In: loads of the point before; out: loads to begin with [-]
-      real(wp), intent(inout) :: loads(:)
-
-      if (radius > 1) then
-         loads = loads + (all(:, point, radius - 1) - all(:, point - 1, radius - 1))
-      else if (point > 2) then
-         loads = loads + (loads - all(:, point - 2, radius))
-      end if
-   end subroutine foresee_loads
 
    !> Lengths at the points, with slopes by which no cubic between two of them leaves their range.
    !>
@@ -188,7 +115,7 @@ contains
       allocate (part%log_lengths(3, 2, n, size(part%log_radii)))
       do k = 1, size(part%log_radii)
          do i = 1, n
-            values(:, i) = log_lengths_of(part%loads(:, i, k))
+            values(:, i) = log_lengths_of(window_t(part%bounds(:, i, k), part%loads(:, i, k)))
          end do
          part%log_lengths(:, 1, :, k) = values
          do i = 1, 3
@@ -205,44 +132,21 @@ contains
    end subroutine fit_lengths
 
    !> Lengths of some loads.
-   pure function log_lengths_of(loads) result(logs)
-      !> Loads of the slices over their mean [-]
-      real(wp), intent(in) :: loads(:)
+   pure function log_lengths_of(window) result(logs)
+      !> Loads of slices
+      type(window_t), intent(in) :: window
       !> Logarithms of the lengths over L, in the order of `line_lengths_t` [-]
       real(wp) :: logs(3)
 
-      logs = [-log(sum(loads**2)/size(loads)), 2.0_wp*log(sum(sqrt(loads))/size(loads)), log(loaded_part(loads))]
+      real(wp) :: ends(2) ! where the load begins and ends [L]
+
+      ends = loaded_ends(window)
+      associate (loads => window%loads, length => window%bounds(2) - window%bounds(1))
+         logs = [-log(sum(loads**2)/(size(loads)*length)), log(length*(sum(sqrt(loads))/size(loads))**2), log(ends(2) - ends(1))]
+      end associate
       ! The same load everywhere has the length of the roller to the last digit
       where (abs(logs) < rounding) logs = 0.0_wp
    end function log_lengths_of
-
-   !> Part of the roller that carries load. Where it ends inside of the roller, load falls to zero along a straight line.
-   pure function loaded_part(loads) result(part)
-      !> Loads of the slices over their mean; at least two in a row are above zero [-]
-      real(wp), intent(in) :: loads(:)
-      !> The part [-]
-      real(wp) :: part
-
-      integer :: first, last
-
-      first = findloc(loads > 0.0_wp, .true., 1)
-      last = findloc(loads > 0.0_wp, .true., 1, back=.true.)
-      part = (last - first + way_out(loads(first), loads(first + 1), first == 1) + way_out(loads(last), loads(last - 1), &
-         & last == size(loads)))/size(loads)
-   end function loaded_part
-
-   !> Way from the middle of the last slice with a load to where the load ends.
-   pure function way_out(outer, inner, is_end) result(way)
-      !> Loads of that slice and of the one before [any]
-      real(wp), intent(in) :: outer, inner
-      !> Does the roller end with the slice?
-      logical, intent(in) :: is_end
-      !> The way, over the width of a slice [-]
-      real(wp) :: way
-
-      way = merge(0.5_wp, 1.0_wp, is_end)
-      if (inner > outer) way = min(way, outer/(inner - outer))
-   end function way_out
 
    !> Weights of the values and slopes at two neighbouring points, for the values between them and their slopes; beyond all points
    !> along a straight line.
@@ -378,7 +282,83 @@ contains
       end associate
    end subroutine radius_weights
 
-   !> Loads of the slices: between the points of the table along cubic polynomials, beyond them with the shape of the last point.
+   !> Loads of slices of the loaded part, and where that begins and ends: between the points of the table along cubic polynomials,
+   !> below them with the shape of the first point on a part as much shorter as the lengths are, above them as at the last point.
+   pure subroutine find_window(part, load, radius, bounds, loads)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Load, W, above zero [N]; equivalent radius, R [m]
+      real(wp), intent(in) :: load, radius
+      !> Where the part begins and ends [L]
+      real(wp), intent(out) :: bounds(2)
+      !> Loads per length over their mean [-]
+      real(wp), intent(out) :: loads(:)
+
+      ! Weights of the radii, of four points; place among the points; ln of the lengths over those of the first point [-]
+      real(wp) :: weights(size(part%log_radii)), unused(size(part%log_radii)), cubic(0:3), t, shrinking
+      integer :: i, k, n, first
+
+      n = size(part%loads, 2)
+      t = (log(load/(part%modulus*part%length**2)) - part%first)/group_step
+      shrinking = group_step*min(t, 0.0_wp)
+      t = min(max(t, 0.0_wp), n - 1.0_wp)
+      first = min(max(int(t), 1), n - 3)
+      t = t - (first - 1)
+      cubic = [-(t - 1.0_wp)*(t - 2.0_wp)*(t - 3.0_wp)/6.0_wp, t*(t - 2.0_wp)*(t - 3.0_wp)/2.0_wp, &
+         & -t*(t - 1.0_wp)*(t - 3.0_wp)/2.0_wp, t*(t - 1.0_wp)*(t - 2.0_wp)/6.0_wp]
+      call radius_weights(part, radius, weights, unused)
+      loads = 0.0_wp
+      bounds = 0.0_wp
+      do k = 1, size(weights)
+         do i = 0, 3
+            loads = loads + weights(k)*cubic(i)*part%loads(:, first + i, k)
+            bounds = bounds + weights(k)*cubic(i)*part%bounds(:, first + i, k)
+         end do
+      end do
+      loads = max(loads, 0.0_wp)
+      loads = loads*(size(loads)/sum(loads))
+      ! The same load everywhere has no rounding whose extremes could be looked for
+      where (abs(loads - 1.0_wp) < rounding) loads = 1.0_wp
+      bounds = min(max(bounds, -0.5_wp), 0.5_wp)
+      if (shrinking < 0.0_wp) bounds = shrunk(bounds, exp(shrinking*sum(weights*part%log_lengths(1, 2, 1, :))), matmul( &
+         & part%bounds(:, 2, :), weights))
+   end subroutine find_window
+
+   !> A part of the roller that is shorter, about the place that has the same place in a longer part.
+   pure function shrunk(bounds, factor, longer) result(shorter)
+      !> Where it begins and ends [L]
+      real(wp), intent(in) :: bounds(2)
+      !> Its new length over its own [-]
+      real(wp), intent(in) :: factor
+      !> Where the longer part does [L]
+      real(wp), intent(in) :: longer(2)
+      !> The part [L]
+      real(wp) :: shorter(2)
+
+      ! How much longer the longer part is, the place [L]
+      real(wp) :: more, place
+
+      more = (longer(2) - longer(1)) - (bounds(2) - bounds(1))
+      place = 0.5_wp*(bounds(1) + bounds(2))
+      if (more > rounding) place = min(max((bounds(1)*(longer(2) - longer(1)) - longer(1)*(bounds(2) - bounds(1)))/more, &
+         & bounds(1)), bounds(2))
+      shorter = place + factor*(bounds - place)
+   end function shrunk
+
+   !> The loaded part at a load and radius.
+   pure subroutine window_between(part, load, radius, window)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Load, W, above zero [N]; equivalent radius, R [m]
+      real(wp), intent(in) :: load, radius
+      !> The loaded part
+      type(window_t), intent(out) :: window
+
+      allocate (window%loads(size(part%loads, 1)))
+      call find_window(part, load, radius, window%bounds, window%loads)
+   end subroutine window_between
+
+   !> Loads of the slices of the roller.
    pure subroutine slice_loads(part, load, radius, loads)
       !> The table
       type(axial_part_t), intent(in) :: part
@@ -387,27 +367,12 @@ contains
       !> Loads per length over W/L; zero without a load [-]
       real(wp), intent(out) :: loads(:)
 
-      ! Weights of the radii, of four points; place among the points [-]
-      real(wp) :: weights(size(part%log_radii)), unused(size(part%log_radii)), cubic(0:3), t
-      integer :: k, n, first
+      type(window_t) :: window
 
       loads = 0.0_wp
       if (.not. load > 0.0_wp) return
-      n = size(part%loads, 2)
-      t = (min(max(log(load/(part%modulus*part%length**2)), part%first), part%last) - part%first)/group_step
-      first = min(max(int(t), 1), n - 3)
-      t = t - (first - 1)
-      cubic = [-(t - 1.0_wp)*(t - 2.0_wp)*(t - 3.0_wp)/6.0_wp, t*(t - 2.0_wp)*(t - 3.0_wp)/2.0_wp, &
-         & -t*(t - 1.0_wp)*(t - 3.0_wp)/2.0_wp, t*(t - 1.0_wp)*(t - 2.0_wp)/6.0_wp]
-      call radius_weights(part, radius, weights, unused)
-      do k = 1, size(weights)
-         loads = loads + weights(k)*(cubic(0)*part%loads(:, first, k) + cubic(1)*part%loads(:, first + 1, k) &
-            & + cubic(2)*part%loads(:, first + 2, k) + cubic(3)*part%loads(:, first + 3, k))
-      end do
-      loads = max(loads, 0.0_wp)
-      loads = loads*(size(loads)/sum(loads))
-      ! The same load everywhere has no rounding whose extremes could be looked for
-      where (abs(loads - 1.0_wp) < rounding) loads = 1.0_wp
+      call window_between(part, load, radius, window)
+      call spread_loads(window, [-0.5_wp, 0.5_wp], loads)
    end subroutine slice_loads
 
    !> Width of a slice of the roller.
@@ -420,8 +385,8 @@ contains
       width = part%length/size(part%loads, 1)
    end function slice_width
 
-   !> Largest load along the roller and at its ends. Below the smallest load of the table, where slices would not resolve them, both
-   !> grow over the mean as the contact gets shorter with its shape kept.
+   !> Largest load along the roller and at its ends. The load at an end is the mean over the last slice of the roller, and where
+   !> load grows towards an end, no more than that is its largest.
    pure function axial_state(part, load, radius) result(state)
       !> The table
       type(axial_part_t), intent(in) :: part
@@ -430,34 +395,35 @@ contains
       !> What matters
       type(axial_state_t) :: state
 
-      ! Loads of the slices; largest load between three slices, as a parabola has it: its place among them [-]
+      ! Loads of the slices of the part; largest load between three slices, as a parabola has it: its place among them [-]
       real(wp) :: loads(size(part%loads, 1)), bend, offset
-      ! Smallest load of the table [N]; lengths there and here [m], their slopes [-]
-      real(wp) :: least
-      type(line_lengths_t) :: known, lengths, slopes(2)
+      ! Where the part begins and ends, its length [L]; how far the last slices of the roller reach into it [slices]
+      real(wp) :: bounds(2), length, reach(2)
       integer :: n, top
 
       n = size(loads)
-      call slice_loads(part, load, radius, loads)
+      call find_window(part, load, radius, bounds, loads)
+      length = bounds(2) - bounds(1)
+      reach = max(1.0_wp - n*(0.5_wp + [1.0_wp, -1.0_wp]*bounds), 0.0_wp)/length
+      state%ends = [load_up_to(loads, reach(1)), load_up_to(loads(n:1:-1), reach(2))]
+      call blunt_ends(loads, min(reach, 0.5_wp*n))
+      loads = loads/length
       top = maxloc(loads, 1, back=.true.)
       state%peak = loads(top)
-      state%place = slice_place(top, n, part%length)
+      offset = 0.0_wp
       if (top > 1 .and. top < n) then
          ! Below zero, as the slice behind has less than the largest load
          bend = loads(top - 1) - 2.0_wp*loads(top) + loads(top + 1)
          offset = 0.5_wp*(loads(top - 1) - loads(top + 1))/bend
-         state%place = state%place + offset*part%length/n
          state%peak = state%peak - 0.5_wp*bend*offset**2
+      end if
+      state%place = part%length*(bounds(1) + length*(top - 0.5_wp + offset)/n)
+      if (maxval(state%ends)*(1.0_wp + rounding) >= state%peak .and. maxval(state%ends) > 1.0_wp + rounding) then
+         state%peak = maxval(state%ends)
+         state%place = 0.5_wp*part%length*(1.0_wp - 1.0_wp/n)*merge(1.0_wp, -1.0_wp, state%ends(2) >= state%ends(1))
       end if
       ! The middle has no rounding whose mean could be looked for
       if (abs(state%place) < sqrt(epsilon(1.0_wp))*part%length) state%place = 0.0_wp
-      state%ends = loads([1, n])
-      least = part%modulus*part%length**2*exp(part%first)
-      if (load >= least) return
-      call effective_lengths(part, least, radius, known, slopes(1), slopes(2))
-      call effective_lengths(part, load, radius, lengths, slopes(1), slopes(2))
-      state%peak = state%peak*(known%mean/lengths%mean)
-      state%ends = state%ends*(known%mean/lengths%mean)
    end function axial_state
 
    !> Parts of the roller that the dry contact loads, and on which the gap is wider by no more than a film than the widest on a part

@@ -5,14 +5,12 @@
 !> A slice with the load per length w is a Hertzian line contact of half width `b = sqrt(8 w R/(pi E'))` in itself. Its pressure, a
 !> semi-ellipse across, moves the surfaces in the middle of slice i, a distance s away along the axis, by
 !>
-!>     u_i = 2/(pi E') w (asinh((s + h/2)/beta) - asinh((s - h/2)/beta)),    beta = b/(2 sqrt(e)),
+!>     u_i = 2/(pi E') w (F((s + h/2)/b) - F((s - h/2)/b)),
 !>
-!> with the width h of a slice: the half space's `w/(pi E*) int ds/sqrt(x^2 + s^2)`, whose mean over the semi-ellipse is that of a
-!> line at the distance beta, exactly so for slices longer than b (the mean of ln|x| is ln(b/2) - 1/2) and to b^2/(8 s^2) far away.
-!> For a uniform load in the middle of a long contact it gives Lundberg's approach `2 w/(pi E') (1 + 2 ln(2 L/b))`. Slices that do
-!> not see each other have the approach of that middle each. A slice narrower than b/1.6 is no line contact of its own: there b
-!> counts as 1.6 h (`1/b^4 + 1/(1.6 h)^4` in place of `1/b^4`), without which the loads of neighbours would not be determined: with
-!> 4 h they go up and down from slice to slice, with 2 h they begin to at a sharp end. More slices make the contact softer.
+!> with the width h of a slice and the half space's F (`strip.f90`): what the line in the middle of the semi-ellipse is moved by.
+!> For a uniform load in the middle of a long contact it gives Lundberg's approach `2 w/(pi E') (1 + 2 ln(2 L/b))`. In an ellipse of
+!> Hertz the half width goes with the root of w as it does here, so that slices far narrower than b have its loads, too. Slices that
+!> do not see each other have the approach of the middle of a roller each.
 !>
 !> Loads are where `u_i + gap_i` is the approach of the bodies, zero where the gap stays open. Newton's method with its exact
 !> derivatives (u is not linear in w, since b follows it), and slices taken out and in by the signs of load and gap. Behind a small
@@ -23,15 +21,17 @@
 module camroller_slices
    use camroller_kinds, only : wp, pi
    use camroller_lapack, only : dgetrf, dgetrs
+   use camroller_strip, only : strip_function
    implicit none
    private
 
    public :: slices_t, new_slices, load_slices, thin_line
 
-   !> Half width over the distance of the line that stands for a slice [-]
+   !> Distance of a line that moves the middle of a long contact as its semi-ellipse does, over the half width [-]
    real(wp), parameter :: thin_line = 0.5_wp*exp(-0.5_wp)
-   !> Largest half width of a slice over its width [-]
-   real(wp), parameter :: widest_slice = 1.6_wp
+   !> Largest half width over that of the mean load of the slices that carry load: in an ellipse it is 1.2, at a sharp end it would
+   !> grow, and with it the load that a wider slice takes, as long as slices get narrower [-]
+   real(wp), parameter :: widest = 2.5_wp
    !> Load per length over its mean by which a slice joins, if it has to carry more: from below Newton's method does not make it
    !> negative again; change after which joins are looked for and derivatives stay; what a solution may be off by: next to nothing
    !> beside the 1e-4 of a table between its points [-]
@@ -41,8 +41,9 @@ module camroller_slices
 
    !> A contact in slices
    type :: slices_t
-      !> Length, L [m]; equivalent modulus, E' [Pa]
-      real(wp) :: length, modulus
+      !> Length, L [m]; equivalent modulus, E' [Pa]; length of the roller whose middle a slice approaches like, where slices do not
+      !> move each other, over L [-]
+      real(wp) :: length, modulus, whole
       !> Gaps without load, in the middle of each slice [m]
       real(wp), allocatable :: gaps(:)
       !> Do slices move each other?
@@ -52,7 +53,7 @@ module camroller_slices
 contains
 
    !> A contact.
-   pure subroutine new_slices(slices, length, modulus, gaps, is_coupled)
+   pure subroutine new_slices(slices, length, modulus, gaps, is_coupled, roller_length)
       !> The contact
       type(slices_t), intent(out) :: slices
       !> Length, L [m]; equivalent modulus, E' [Pa]
@@ -61,9 +62,13 @@ contains
       real(wp), intent(in) :: gaps(:)
       !> Do slices move each other?
       logical, intent(in) :: is_coupled
+      !> Length of the roller, where slices are on a part of it [m]
+      real(wp), intent(in), optional :: roller_length
 
       slices%length = length
       slices%modulus = modulus
+      slices%whole = 1.0_wp
+      if (present(roller_length)) slices%whole = roller_length/length
       slices%gaps = gaps - minval(gaps)
       slices%is_coupled = is_coupled
    end subroutine new_slices
@@ -81,9 +86,9 @@ contains
       !> 0 fine, positive where no loads were found
       integer, intent(out) :: status
 
-      ! Height 2 W/(pi E' L) that lengths are relative to [m]; gaps, approach, overlap of a slice that joins [heights]; distance of
-      ! the line at the mean load [L]
-      real(wp) :: height, gaps(size(loads)), level, joining, line
+      ! Height 2 W/(pi E' L) that lengths are relative to [m]; gaps, approach, overlap of a slice that joins [heights]; half
+      ! width at the mean load [L]
+      real(wp) :: height, gaps(size(loads)), level, joining, width
       ! Approach by all slices and their derivatives over the loads, bordered by the balance of the load; what is wrong [-]
       real(wp) :: influence(size(loads), size(loads)), slopes(size(loads), size(loads))
       real(wp) :: matrix(size(loads) + 1, size(loads) + 1), wrong(size(loads) + 1, 1)
@@ -95,8 +100,9 @@ contains
       status = 0
       height = 2.0_wp*load/(pi*slices%modulus*slices%length)
       gaps = slices%gaps/height
-      line = thin_line*sqrt(8.0_wp*load*radius/(pi*slices%modulus*slices%length))/slices%length
-      joining = 2.0_wp*first_load*asinh(0.5_wp/(line*sqrt(first_load)*merge(size(loads), 1, slices%is_coupled)))
+      width = sqrt(8.0_wp*load*radius/(pi*slices%modulus*slices%length))/slices%length
+      joining = 2.0_wp*first_load*asinh(0.5_wp*merge(1.0_wp/size(loads), slices%whole, slices%is_coupled) &
+         & /(thin_line*width*sqrt(first_load)))
       is_loaded = loads > 0.0_wp
       level = 0.0_wp
       is_factored = .false.
@@ -106,9 +112,9 @@ contains
          list(:n) = pack([(j, j=1, size(loads))], is_loaded)
          where (.not. is_loaded) loads = 0.0_wp
          if (is_factored) then
-            call find_influence(slices%is_coupled, line, loads, list(:n), influence)
+            call find_influence(slices, width, loads, list(:n), influence)
          else
-            call find_influence(slices%is_coupled, line, loads, list(:n), influence, slopes)
+            call find_influence(slices, width, loads, list(:n), influence, slopes)
          end if
          wrong(:n, 1) = -gaps(list(:n)) - matmul(influence(list(:n), list(:n)), loads(list(:n)))
          wrong(n + 1, 1) = real(size(loads), wp) - sum(loads(list(:n)))
@@ -164,11 +170,11 @@ contains
    end subroutine factor_slopes
 
    !> Approach of all slices by the load of some, and its derivative over that.
-   pure subroutine find_influence(is_coupled, line, loads, list, influence, slopes)
-      !> Do slices move each other?
-      logical, intent(in) :: is_coupled
-      !> Distance of the line that stands for a slice with the mean load [L]
-      real(wp), intent(in) :: line
+   pure subroutine find_influence(slices, width, loads, list, influence, slopes)
+      !> The contact
+      type(slices_t), intent(in) :: slices
+      !> Half width of a slice with the mean load [L]
+      real(wp), intent(in) :: width
       !> Loads per length over their mean [-]
       real(wp), intent(in) :: loads(:)
       !> Slices that count
@@ -177,40 +183,44 @@ contains
       real(wp), intent(out) :: influence(:, :)
       real(wp), intent(out), optional :: slopes(:, :)
 
-      ! Distance of the line, distances along the axis [L]; asinh of their ratio, and less half its derivative over ln(load) [-]
-      real(wp) :: beta, ends(0:size(loads) - 1), angles(0:size(loads) - 1), falls(0:size(loads) - 1), roots(0:size(loads) - 1)
-      ! Derivative of ln(b) over ln(load) [-]
-      real(wp) :: part
+      ! Half width, distance of its line, distances along the axis [L], their logarithms; function of the strip, and less half its
+      ! slope over the logarithm of their ratio [-]
+      real(wp) :: beta, ends(0:size(loads) - 1), logs(0:size(loads) - 1), angles(0:size(loads) - 1), falls(0:size(loads) - 1)
+      ! Half width without limit over the limit, to its power; slope of ln(half width) over ln(load) [-]
+      real(wp) :: excess, part
       ! Most slices between a slice and the one that moves it
       integer :: far
       integer :: j, k, n
 
       n = size(loads)
-      if (.not. is_coupled) then
+      if (.not. slices%is_coupled) then
          influence(:, list) = 0.0_wp
          if (present(slopes)) slopes(:, list) = 0.0_wp
+         do k = 1, size(list)
+            j = list(k)
+            beta = thin_line*width*sqrt(loads(j))
+            influence(j, j) = 2.0_wp*asinh(0.5_wp*slices%whole/beta)
+            if (present(slopes)) slopes(j, j) = influence(j, j) - 0.5_wp/sqrt(0.25_wp + (beta/slices%whole)**2)
+         end do
+         return
       end if
       ends = [((k + 0.5_wp)/n, k=0, n - 1)]
+      logs = log(ends)
       do k = 1, size(list)
          j = list(k)
-         beta = line*sqrt(loads(j))
-         if (is_coupled) then
-            ! A smooth limit, since Newton's method would go to and fro at a sharp one
-            part = 1.0_wp/(1.0_wp + (beta*n/(thin_line*widest_slice))**4)
-            beta = beta*sqrt(sqrt(part))
-            part = 0.5_wp*part
-            far = max(j - 1, n - j)
-            roots(:far) = sqrt(ends(:far)**2 + beta**2)
-            angles(:far) = log((ends(:far) + roots(:far))/beta)
-            call spread_column(angles, j, influence(:, j))
-            if (present(slopes)) then
-               falls(:far) = angles(:far) - part*ends(:far)/roots(:far)
-               call spread_column(falls, j, slopes(:, j))
-            end if
+         far = max(j - 1, n - j)
+         ! A smooth limit, since Newton's method would go to and fro at a sharp one
+         excess = (loads(j)*size(list)/(n*widest**2))**4
+         part = 0.5_wp/(1.0_wp + excess)
+         beta = width*sqrt(loads(j))/sqrt(sqrt(sqrt(1.0_wp + excess)))
+         if (present(slopes)) then
+            call strip_function(ends(:far), logs(:far), beta, angles(:far), falls(:far))
+            falls(:far) = angles(:far) - part*falls(:far)
+            call spread_column(falls, j, slopes(:, j))
          else
-            influence(j, j) = 2.0_wp*asinh(0.5_wp/beta)
-            if (present(slopes)) slopes(j, j) = influence(j, j) - 0.5_wp/sqrt(0.25_wp + beta**2)
+            call strip_function(ends(:far), logs(:far), beta, angles(:far))
          end if
+         call spread_column(angles, j, influence(:, j))
       end do
    end subroutine find_influence
 

@@ -15,7 +15,7 @@ module camroller_remarks
       & cut_off_contact, unloaded_end, rubbing_pin, rolling_out_of_range, rubbing_contact, yielding_surface, &
       & bearing_width, rubbing_bearing, orbit_out_of_range, foreign_asperities, hot_film, far_temperature, missing_lift, &
       & open_valve, sinking_plunger, pressed_seat, cold_estimate, idle_roller, deep_wear, lifted_valve, &
-      & narrow_slices, shaken_train, creeping_roller, shut_valve, empty_chamber, rigid_contact, liquid_limit, backward_roller, &
+      & short_contact, shaken_train, creeping_roller, shut_valve, empty_chamber, rigid_contact, liquid_limit, backward_roller, &
       & foreign_speed, untouched_film, oiled_slices, lost_lash, plain_contacts, light_contact, &
       & few_places, held_coefficient, cool_bearings, cool_inlet, missed_hours, far_table, cool_pin, &
       & spent_friction, thick_seal_oil, outer_asperities, insulated_metal
@@ -27,7 +27,7 @@ module camroller_remarks
    !> film [-], part of the cycle [%], part of the cycle [%], pressure over what is allowed [-], width over that of the law or the
    !> other way round [-], limit over film [-] for the next two, none, rise of the temperature [K], way beyond the points [K], part
    !> of the lift [%], smallest lift [m], way below its rest [m], force [N], way beyond the formula [K], slip [-], depth over
-   !> lift [-], force [N], half width over width [-], load over that of a rigid train [-], slip [%], none, ambient pressure less
+   !> lift [-], force [N], half width over length [-], load over that of a rigid train [-], slip [%], none, ambient pressure less
    !> that of the chamber [Pa], part of the cycle [%] for the next three, speed of the law over that of the roller [-], film over
    !> roughness [-], part of the cycle [%], part of the sinking that is more than the lash [-], none, part of
    !> the cycle [%], miss over the largest [-], none, viscosity over that of the warm oil [-], film over that with heat [-],
@@ -41,7 +41,7 @@ module camroller_remarks
       & rubbing_contact = 25, yielding_surface = 26, bearing_width = 27, rubbing_bearing = 28, orbit_out_of_range = 29, &
       & foreign_asperities = 30, hot_film = 31, far_temperature = 32, missing_lift = 33, open_valve = 34, sinking_plunger = 35, &
       & pressed_seat = 36, cold_estimate = 37, idle_roller = 38, deep_wear = 39, lifted_valve = 40, &
-      & narrow_slices = 41, shaken_train = 42, creeping_roller = 43, shut_valve = 44, empty_chamber = 45, rigid_contact = 46, &
+      & short_contact = 41, shaken_train = 42, creeping_roller = 43, shut_valve = 44, empty_chamber = 45, rigid_contact = 46, &
       & liquid_limit = 47, backward_roller = 48, foreign_speed = 49, untouched_film = 50, oiled_slices = 51, lost_lash = 52, &
       & plain_contacts = 53, light_contact = 54, few_places = 55, held_coefficient = 56, cool_bearings = 57, &
       & cool_inlet = 58, missed_hours = 59, far_table = 60, cool_pin = 61, spent_friction = 62, thick_seal_oil = 63, &
@@ -57,7 +57,8 @@ module camroller_remarks
       & "orbit out of its fit", "asperity law of another film", "oil of a hot film out of range", "oil far from its points", &
       & "lift not reached", "valve does not close", "plunger sinks far", "gas presses the closed valve", &
       & "oil too cold for its estimate", "roller hardly turns", "wear changes the cam", "gas opens the closed valve", &
-      & "slices too narrow", "rigid train would vibrate", "slip is creep", "check valve stays shut", "adjuster's chamber empty", &
+      & "contact as short as wide", "rigid train would vibrate", "slip is creep", "check valve stays shut", &
+      & "adjuster's chamber empty", &
       & "shear of a rigid contact", "limit of a liquid film", "roller turns backwards", "speed below those of a law", &
       & "tribofilm without asperities", "oil beside the dry contact", "lash taken by the seat", &
       & "group left out of contacts", "film of a light load not solved", "places too far apart", &

@@ -9,12 +9,13 @@ module camroller_axial_setup
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_kinematics, only : linkage_t, position_t, evaluate_position
    use camroller_lift, only : lift_law_t, evaluate_lift
-   use camroller_roller_profile, only : coupling_half_space, coupling_names, roller_profile_t
+   use camroller_materials, only : combined_modulus, materials_t
+   use camroller_roller_profile, only : profile_gap, profile_logarithmic, profile_names, roller_profile_t
    use camroller_traction, only : line_lengths_t
    implicit none
    private
 
-   public :: set_axial, coupled_width, nose_length
+   public :: set_axial, last_drops, nose_length
 
    !> Largest equivalent radius over the length of the roller: beyond it the load is spread as there [-]
    real(wp), parameter :: largest_radius = 20.0_wp
@@ -22,20 +23,6 @@ module camroller_axial_setup
    integer, parameter :: step = 2
 
 contains
-
-   !> Width of the slices that move each other; huge where there are none.
-   pure function coupled_width(profile, length) result(width)
-      !> What the case says
-      type(roller_profile_t), intent(in), allocatable :: profile
-      !> Length of the contact [m]
-      real(wp), intent(in) :: length
-      !> The width [m]
-      real(wp) :: width
-
-      width = huge(1.0_wp)
-      if (.not. allocated(profile)) return
-      if (profile%coupling == coupling_names(coupling_half_space)) width = length/profile%slices
-   end function coupled_width
 
    !> Make the table of a case, or none.
    subroutine set_axial(axial, profile, has_numerical_film, linkage, lift_law, length, modulus, error)
@@ -82,6 +69,33 @@ contains
       allocate (axial)
       call new_axial_part(axial, profile, length, modulus, radii, error)
    end subroutine set_axial
+
+   !> How far a logarithmic roller with a drop at its ends drops in the middle of its last slice, and how far without it; zero where
+   !> it has none.
+   pure function last_drops(profile, materials, length) result(drops)
+      !> What the case says
+      type(roller_profile_t), intent(in) :: profile
+      !> Cam and roller
+      type(materials_t), intent(in) :: materials
+      !> Length of the contact [m]
+      real(wp), intent(in) :: length
+      !> Both drops [m]
+      real(wp) :: drops(2)
+
+      type(roller_profile_t) :: other
+      real(wp) :: modulus, place ! [Pa], [m]
+
+      drops = 0.0_wp
+      if (profile%profile /= profile_names(profile_logarithmic) .or. .not. profile%end_drop > 0.0_wp) return
+      modulus = combined_modulus(materials%cam_modulus, materials%cam_poisson_ratio, materials%roller_modulus, &
+         & materials%roller_poisson_ratio)
+      place = 0.5_wp*length*(1.0_wp - 1.0_wp/profile%slices)
+      other = profile
+      other%tilt = 0.0_wp
+      drops(1) = profile_gap(other, length, modulus, place)
+      other%end_drop = 0.0_wp
+      drops(2) = profile_gap(other, length, modulus, place)
+   end function last_drops
 
    !> Length of the line contact of cam and roller at full lift under the load of the standing train, its largest: all of the
    !> contact, or the effective length of a roller with a profile.

@@ -1,7 +1,8 @@
-!> Remarks on the joints of a deck, sliding ones and the finger's pivot, which take the geometry of its train.
+!> Remarks on the joints of a deck, sliding ones and the finger's pivot, and on its roller: they take the geometry of its train.
 !>
 !> In: a deck. Out: sentences. Nothing is refused for them.
 module camroller_deck_joint_remarks
+   use camroller_axial_setup, only : last_drops
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, make_case, override_t
    use camroller_error, only : error_t
@@ -15,7 +16,7 @@ module camroller_deck_joint_remarks
    implicit none
    private
 
-   public :: remark_stem_axis, remark_pivot
+   public :: remark_end_drop, remark_stem_axis, remark_pivot
 
 contains
 
@@ -97,5 +98,36 @@ contains
       call say_pulled_off(case%mechanism, where, text)
       call add_line(remarks, text)
    end subroutine remark_pivot
+
+   !> A drop at the ends of a logarithmic roller that its logarithm reaches within a part of the last slice alone.
+   subroutine remark_end_drop(deck, left_out, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Keys of which nothing is said
+      character(len=*), intent(in) :: left_out(:)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=*), parameter :: key = "roller_profile.end_drop_um"
+      ! Difference in the middle of the last slice of which nothing is seen [-]; micrometres of a metre [um/m]
+      real(wp), parameter :: unseen = 0.01_wp, um = 1.0e6_wp
+      type(override_t) :: none(0)
+      type(case_t) :: case
+      type(error_t), allocatable :: failure
+      real(wp) :: drops(2) ! in the middle of the last slice, and without a drop at the end [m]
+
+      if (any(left_out == key) .or. any(left_out == "roller_profile.design_load_N")) return
+      call make_case(deck, none, case, failure)
+      if (allocated(failure)) return
+      if (.not. allocated(case%roller_profile)) return
+      drops = last_drops(case%roller_profile, case%materials, case%mechanism%contact_width)
+      if (.not. drops(2) > 0.0_wp .or. drops(2) - drops(1) > unseen*drops(2)) return
+      associate (profile => case%roller_profile)
+         call add_line(remarks, key//" = "//number_text(um*profile%end_drop, 4)//" changes next to nothing: the logarithm for "// &
+            & "roller_profile.design_load_N = "//number_text(profile%design_load, 4)//" drops by "//number_text(um*drops(2), 3)// &
+            & " um in the middle of the last slice, with that drop at the very end or without; a roller that drops farther is "// &
+            & "made for a larger load")
+      end associate
+   end subroutine remark_end_drop
 
 end module camroller_deck_joint_remarks

@@ -36,8 +36,8 @@ contains
          & example="3000")
       call add_number(schema, "design_load_N", positive, "load at which a logarithmic roller has the same load all along it", &
          & is_optional=.true., example="800")
-      call add_number(schema, "end_drop_um", not_negative, "drop of a logarithmic roller at its ends; 0: as the logarithm has "// &
-         & "it, without limit", default=standard%end_drop)
+      call add_number(schema, "end_drop_um", not_negative, "drop of a logarithmic roller at its very ends, which acts up to "// &
+         & "some times 2 design_load/(pi E' contact_width); 0: as the logarithm has it, without limit", default=standard%end_drop)
       call add_number(schema, "tilt_mrad", range_t(-largest_tilt, largest_tilt), "angle between roller and cam in the plane of "// &
          & "length and normal; positive presses the end at positive places", default=standard%tilt)
       call add_name(schema, "coupling", coupling_names, standard%coupling, &

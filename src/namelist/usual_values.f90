@@ -71,7 +71,7 @@ module camroller_usual_values
       usual_t("traction.limiting_stress_MPa", 0.0_wp, 20.0_wp), &
       usual_t("roller_profile.crown_radius_mm", 100.0_wp, 1.0e5_wp), &
       usual_t("roller_profile.design_load_N", 10.0_wp, 1.0e4_wp), &
-      usual_t("roller_profile.end_drop_um", 0.0_wp, 100.0_wp), &
+      usual_t("roller_profile.end_drop_um", 0.0_wp, 20.0_wp), &
       usual_t("roller_profile.tilt_mrad", -5.0_wp, 5.0_wp), &
       usual_t("heat.oil_conductivity_W_m_K", 0.05_wp, 0.5_wp), &
       usual_t("heat.oil_heat_capacity_J_kg_K", 1500.0_wp, 2700.0_wp), &

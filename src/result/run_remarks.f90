@@ -1,5 +1,5 @@
 !> Remarks on a result as a whole: an accuracy that was not reached, a tolerance that says nothing of the error, a motion without a
-!> period; a roller that does not turn, slices of it that are too narrow, a rigid train that would vibrate, slip that is the creep
+!> period; a roller that does not turn, a contact of it that is short, a rigid train that would vibrate, slip that is the creep
 !> of regularised friction.
 !>
 !> In: numerics as given, the result of a case. Out: remarks, or an error where nothing of the result can be right.
@@ -9,13 +9,12 @@ module camroller_run_remarks
    use camroller_asperity, only : asperity_t, mobilisation_names
    use camroller_boundary_law, only : boundary_law_names, boundary_law_t, boundary_table
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond
-   use camroller_axial_setup, only : coupled_width
    use camroller_case, only : case_t, numerics_t
-   use camroller_number_text, only : fixed_text, integer_text, number_text
+   use camroller_number_text, only : fixed_text, number_text
    use camroller_catalogue, only : lobe_prefix
    use camroller_flexible_parts, only : usual_dynamics
    use camroller_remarks, only : add_remark, creeping_roller, foreign_speed, held_coefficient, idle_roller, loose_tolerance, &
-      & missed_accuracy, missed_extremes, missed_means, narrow_slices, no_period, shaken_train
+      & missed_accuracy, missed_extremes, missed_means, no_period, shaken_train, short_contact
    use camroller_result, only : find_quantity, get_summary, lobe_scope, result_t
    implicit none
    private
@@ -25,11 +24,9 @@ module camroller_run_remarks
    !> Slip over a turn of the cam beyond which a roller does not roll: those of engines slip by some per cent, and by half on their
    !> base circle alone; one that makes less than a tenth of its turns is a sliding follower [-]
    real(wp), parameter :: idle_slip = 0.9_wp
-   !> Width of a slice over the largest half width of the contact below which the contact is computed too soft: from there on its
-   !> largest pressure is more than one per cent below that of Hertz' ellipse (measured for crowns of 0.1 to 0.5 m) [-]
-   real(wp), parameter :: narrowest_slice = 0.8_wp
-   !> Part of the slices that this contact allows which a remark advises: with fewer slices it is a little wider [-]
-   real(wp), parameter :: advised_part = 0.95_wp
+   !> Half width of a contact over its effective length from where on its load along the roller is not that of a contact far longer
+   !> than wide: for a crown with half the axes' ratio, whose effective length is 1.6 per cent below that of Hertz' ellipse [-]
+   real(wp), parameter :: shortest_contact = 0.29_wp
    !> Largest load of a train that vibrates over that of a rigid one from where on the rigid one misleads, since friction goes with
    !> the load: twice what the estimate is off by where it is farthest off, 0.05 at 2500 rev/min (doc/dynamics.md) [-]
    real(wp), parameter :: shaken_factor = 1.1_wp
@@ -67,9 +64,7 @@ contains
       !> Internal error where the result lacks what it should have
       type(error_t), allocatable, intent(out) :: error
 
-      associate (length => case%mechanism%contact_width)
-         call judge_slices(coupled_width(case%roller_profile, length), length, result)
-      end associate
+      if (allocated(case%roller_profile)) call judge_length(result)
       call judge_stiffness(case%mechanism%pivot_to_roller, result, error)
       if (.not. allocated(error)) call judge_creep(case%asperity, allocated(case%wear), result, error)
       if (.not. allocated(case%boundary_law) .or. allocated(error)) return
@@ -127,28 +122,33 @@ contains
       end do
    end subroutine judge_turns
 
-   !> Say that slices of the roller are narrower than the theory of slender contacts allows.
-   subroutine judge_slices(width, length, result)
-      !> Width of a slice, length of the contact [m]
-      real(wp), intent(in) :: width, length
+   !> Say that a contact is so short for its width that it is hardly a line contact.
+   subroutine judge_length(result)
       !> The result; gets the remark
       type(result_t), intent(inout) :: result
 
-      ! Largest half width of the contact [m]
-      real(wp) :: half_width
-      integer :: lobe, place
+      ! Half width over effective length, zero without contact [-]
+      real(wp), allocatable :: ratio(:)
+      integer :: lobe, half, whole, i
 
+      allocate (ratio(size(result%series_values, 1)))
       do lobe = 1, lobe_count(result)
-         place = find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))//"hertz_half_width")
-         if (place == 0) exit
-         half_width = result%summary_values(place)
-         if (width >= narrowest_slice*half_width) cycle
-         call add_named(result, lobe, narrow_slices, "slices of the roller are "//number_text(1.0e3_wp*width, 3)// &
-            & " mm wide and the contact is up to "//number_text(1.0e3_wp*half_width, 3)//" mm half wide: so narrow slices make "// &
-            & "it too soft; take "//integer_text(int(advised_part*length/(narrowest_slice*half_width)))//" at most "// &
-            & "(roller_profile.slices)", half_width/width)
+         half = find_quantity(result%series, trim(lobe_prefix(lobe))//"hertz_half_width")
+         whole = find_quantity(result%series, trim(lobe_prefix(lobe))//"effective_contact_length")
+         if (min(half, whole) == 0) exit
+         associate (lengths => result%series_values(:, whole))
+            ratio = 0.0_wp
+            where (lengths > 0.0_wp) ratio = result%series_values(:, half)/max(lengths, tiny(1.0_wp))
+            i = maxloc(ratio, 1)
+            if (.not. ratio(i) > shortest_contact) cycle
+            call add_named(result, lobe, short_contact, "the contact is as short as "//number_text(1.0e3_wp*lengths(i), 3)// &
+               & " mm (effective length) where it is "//number_text(2.0e3_wp*result%series_values(i, half), 3)//" mm wide, at "// &
+               & number_text(result%angle(i), 3)//" deg: no line contact any more, which load along the roller, film and "// &
+               & "friction take it for; a crown's is 1.6 % too short at "//number_text(2.0_wp*shortest_contact, 2)// &
+               & " of its length, 4 % at all of it", ratio(i))
+         end associate
       end do
-   end subroutine judge_slices
+   end subroutine judge_length
 
    !> Say that a train which is computed as a rigid one would vibrate.
    subroutine judge_stiffness(arm, result, error)

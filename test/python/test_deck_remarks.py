@@ -187,6 +187,17 @@ def test_values_that_do_not_go_together_give_remarks(camroller, tmp_path, deck, 
         assert word in remark
 
 
+@pytest.mark.parametrize(("values", "acts"), [
+    (["roller_profile.end_drop_um=8"], False), (["roller_profile.end_drop_um=1"], True), (["roller_profile.end_drop_um=0"], True),
+    # A logarithm ten times as high, and slices that come closer to the end
+    (["roller_profile.end_drop_um=8", "roller_profile.design_load_N=10000"], True),
+    (["roller_profile.end_drop_um=1.6"], False), (["roller_profile.end_drop_um=1.6", "roller_profile.slices=161"], True),
+])
+def test_a_drop_of_the_ends_that_hardly_acts_gives_a_remark(camroller, values, acts):
+    found = [line for line in remarks_of(camroller, ROOT / "decks/logarithmic_roller.nml", *values) if "changes next to nothing" in line]
+    assert len(found) == (0 if acts else 1)
+
+
 def test_a_tilt_of_the_adjuster_has_no_effect_without_the_mass_of_the_finger(camroller):
     inertia = (ROOT / "decks/thesis.nml").read_text().replace("finger_kg = 0.0418", "finger_inertia_kg_m2 = 5.3e-5\n")
     assert "finger_kg" not in inertia

@@ -7,8 +7,10 @@ module test_axial
    use camroller_kinds, only : wp, pi
    use camroller_roller_profile, only : roller_profile_t, profile_gap, profile_names
    use camroller_slices, only : slices_t, new_slices, load_slices, thin_line
+   use camroller_strip, only : strip_function
    use camroller_traction, only : line_lengths_t
    use closeness, only : check_close, check_scaled, expect_error, expect_success
+   use hertz_ellipse, only : find_ellipse
    use random_decks, only : random_t, start_random, draw
    use roller_profiles, only : profiles
    implicit none
@@ -28,7 +30,7 @@ contains
          new_unittest("the approach under the same load all along is Lundberg's", test_approach), &
          new_unittest("Lundberg's profile has the same load all along it at its load", test_lundberg), &
          new_unittest("a crown that is not cut off is Hertz' ellipse", test_ellipse), &
-         new_unittest("slices as wide as the contact is half wide have the load of Hertz' ellipse", test_narrow_slices), &
+         new_unittest("slices far narrower than the contact have the load of Hertz' ellipse", test_narrow_slices), &
          new_unittest("a load that rises along the roller has the gap of Legendre's polynomials", test_legendre), &
          new_unittest("slices that do not see each other have a small tilt's load in closed form", test_small_tilt), &
          new_unittest("a tilted crown is the crown at another place", test_tilted_crown), &
@@ -86,26 +88,36 @@ contains
       b = sqrt(8.0_wp*load*radius/(pi*modulus*roller_length))
    end function mean_half_width
 
+   !> Function of a strip.
+   elemental function strip(ratio) result(f)
+      !> Length over half width [-]
+      real(wp), intent(in) :: ratio
+      real(wp) :: f
+      real(wp) :: values(1)
+
+      call strip_function([ratio], log([ratio]), 1.0_wp, values)
+      f = values(1)
+   end function strip
+
    !> `2 w/(pi E') (1.1932 + ln(L/(2 b')))`, b' the width: Lundberg's number is 1/2 + ln 2 (Harris 2001, eq. 6.49 has 1.1932)
    subroutine test_approach(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: loads(41), approach, b, gap(41), beta, height
+      real(wp) :: loads(41), approach, b, gap(41), height
       real(wp), parameter :: load = 500.0_wp
 
       b = mean_half_width(load)
       height = 2.0_wp*load/(pi*modulus*roller_length)
-      beta = thin_line*b
       ! the gap under which the load is the same everywhere: what it moves in the middle less than at a place
       associate (y => roller_length*middles(41))
-         gap = height*(2.0_wp*asinh(0.5_wp*roller_length/beta) - asinh((0.5_wp*roller_length - y)/beta) &
-            & - asinh((0.5_wp*roller_length + y)/beta))
+         gap = height*(2.0_wp*strip(0.5_wp*roller_length/b) - strip((0.5_wp*roller_length - y)/b) &
+            & - strip((0.5_wp*roller_length + y)/b))
       end associate
       call solve(error, gap, .true., load, loads, approach)
       if (allocated(error)) return
-      ! the limit of b by the width of a slice changes it by a quarter of the fourth power of their ratio
-      call check_scaled(error, maxval(abs(loads - 1.0_wp)), 0.0_wp, 1.0_wp, 0.25_wp*(b*41.0_wp/roller_length)**4, "loads")
+      ! the limit of the half width changes it by an eighth of 2.5^-8; the solver's last step is 1e-9
+      call check_scaled(error, maxval(abs(loads - 1.0_wp)), 0.0_wp, 1.0_wp, 1.0e-4_wp, "loads")
       if (allocated(error)) return
-      ! beta over the length, squared, is what the logarithm leaves out; four digits of the number
+      ! half width over the length, squared, is what the logarithm leaves out; four digits of the number
       call check_close(error, approach, height*2.0_wp*(1.1932_wp + log(roller_length/b)), 5.0e-5_wp/1.2_wp, "approach")
    end subroutine test_approach
 
@@ -123,8 +135,8 @@ contains
          allocate (loads(n))
          call solve(error, gaps_of(profile, n), .true., load, loads, approach)
          if (allocated(error)) return
-         ! half a slice from the end asinh(x) is ln(2 x) + 1/(4 x^2), and a load answers to a gap by less than one
-         end_error = (thin_line*mean_half_width(load)*2.0_wp*n/roller_length)**2/4.0_wp
+         ! half a slice from the end the strip's function is a logarithm and 1/(16 t^2); a load answers to a gap by less than one
+         end_error = (mean_half_width(load)*2.0_wp*n/roller_length)**2/16.0_wp
          call check_scaled(error, maxval(abs(loads - 1.0_wp)), 0.0_wp, 1.0_wp, end_error, "loads")
          if (allocated(error)) return
          deallocate (loads)
@@ -152,7 +164,7 @@ contains
       real(wp), parameter :: crown = 3.0_wp
       integer :: n
 
-      call find_ellipse(crown, 50.0_wp, a, ratio)
+      call find_ellipse(crown, 50.0_wp, radius, modulus, a, ratio)
       profile%profile = "crowned"
       profile%crown_radius = crown
       do n = 41, 161, 60
@@ -169,32 +181,8 @@ contains
       end do
    end subroutine test_ellipse
 
-   !> Hertz' ellipse of a crown: half length and axes' ratio.
-   pure subroutine find_ellipse(crown, load, half_length, ratio)
-      !> Radius of the crown [m], load [N]
-      real(wp), intent(in) :: crown, load
-      !> Half length [m], half width over it [-]
-      real(wp), intent(out) :: half_length, ratio
-      ! Bounds of the ratio, complete integrals [-]
-      real(wp) :: low, high, integrals(2)
-      integer :: i
-
-      low = 1.0e-4_wp
-      high = 1.0_wp
-      do i = 1, 200
-         ratio = sqrt(low*high)
-         integrals = elliptic(1.0_wp - ratio**2)
-         if (ratio**2*(integrals(1) - integrals(2))/(integrals(2) - ratio**2*integrals(1)) > radius/crown) then
-            high = ratio
-         else
-            low = ratio
-         end if
-      end do
-      half_length = (6.0_wp*load*crown*(integrals(1) - integrals(2))/(pi*modulus*(1.0_wp - ratio**2)))**(1.0_wp/3.0_wp)
-   end subroutine find_ellipse
-
-   !> Slices narrower than the contact is wide make it softer. What they leave is measured: 0.7 to 1.1 % of the largest load; with
-   !> half widths that count no more than the width of a slice it would be 3 to 4 %.
+   !> Slices five times narrower than the contact is half wide. With a thin line in place of a slice's semi-ellipse the largest load
+   !> is 20 % below that of Hertz.
    subroutine test_narrow_slices(error)
       type(error_type), allocatable, intent(out) :: error
       type(roller_profile_t) :: profile
@@ -208,49 +196,25 @@ contains
       profile%profile = "crowned"
       do i = 1, size(crowns)
          profile%crown_radius = crowns(i)
-         call find_ellipse(crowns(i), load, a, ratio)
-         allocate (loads(nint(roller_length/(ratio*a))))
+         call find_ellipse(crowns(i), load, radius, modulus, a, ratio)
+         allocate (loads(nint(5.0_wp*roller_length/(ratio*a))))
          call solve(error, gaps_of(profile, size(loads)), .true., load, loads, approach)
          if (allocated(error)) return
-         call check_close(error, maxval(loads), 0.75_wp*roller_length/a, 0.02_wp, "largest load")
+         call check_close(error, maxval(loads), 0.75_wp*roller_length/a, ratio**2 + 1.0e-3_wp, "largest load")
          if (allocated(error)) return
          deallocate (loads)
       end do
    end subroutine test_narrow_slices
-
-   !> Complete elliptic integrals of first and second kind by the arithmetic-geometric mean.
-   pure function elliptic(m) result(integrals)
-      !> Parameter, the square of the modulus [-]
-      real(wp), intent(in) :: m
-      !> K and E [-]
-      real(wp) :: integrals(2)
-      real(wp) :: a, b, c, rest, power
-      integer :: i
-
-      a = 1.0_wp
-      b = sqrt(1.0_wp - m)
-      rest = 0.5_wp*m
-      power = 1.0_wp
-      do i = 1, 12
-         c = 0.5_wp*(a - b)
-         rest = rest + power*c**2
-         power = 2.0_wp*power
-         c = 0.5_wp*(a + b)
-         b = sqrt(a*b)
-         a = c
-      end do
-      integrals = [0.5_wp*pi/a, 0.5_wp*pi/a*(1.0_wp - rest)]
-   end function elliptic
 
    !> A load w = 1 + e x moves the half space by `w ln((1 - x^2) L^2/beta^2) - 2 e x`, since Legendre's polynomials are the
    !> eigenfunctions of `int (w(t) - w(x))/|t - x| dt` with `-2 (1 + 1/2 + ... + 1/n)` (Tuck 1964).
    subroutine test_legendre(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: rise = 0.4_wp, load = 500.0_wp
-      ! Approach, height of the logarithm [m]; places over half of the length, loads expected and found, distance of the line over
-      ! half of the length [-]
+      ! Approach, height of the logarithm [m]; places over half of the length, loads expected and found, half width over half of the
+      ! length [-]
       real(wp) :: approach, height
-      real(wp), allocatable :: x(:), expected(:), loads(:), beta(:)
+      real(wp), allocatable :: x(:), expected(:), loads(:), half(:)
       integer :: n
 
       height = 2.0_wp*load/(pi*modulus*roller_length)
@@ -258,8 +222,8 @@ contains
          allocate (loads(n))
          x = 2.0_wp*middles(n)
          expected = 1.0_wp + rise*x
-         beta = 2.0_wp*thin_line*mean_half_width(load)/roller_length*sqrt(expected)
-         call solve(error, -height*(expected*(asinh((1.0_wp - x)/beta) + asinh((1.0_wp + x)/beta)) - 2.0_wp*rise*x), .true., load, &
+         half = 2.0_wp*mean_half_width(load)/roller_length*sqrt(expected)
+         call solve(error, -height*(expected*(strip((1.0_wp - x)/half) + strip((1.0_wp + x)/half)) - 2.0_wp*rise*x), .true., load, &
             & loads, approach)
          if (allocated(error)) return
          ! the load rises by 2 rise/n over a slice, which is taken as constant
@@ -423,7 +387,7 @@ contains
          profile%slices = 11 + int(50*x(6))
          call new_axial_part(part, profile, 5.0e-3_wp + 20.0e-3_wp*x(7), modulus, 4.0e-3_wp*[1.0_wp, 1.0_wp + 5.0_wp*x(8)], failure)
          if (allocated(failure)) then
-            call expect_error(error, failure, kind_deck, "narrower than")
+            call expect_error(error, failure, kind_deck, "wider than")
             if (allocated(error)) return
             cycle
          end if
