@@ -63,7 +63,7 @@ contains
       has_derivatives = method%needs_jacobian .and. (method%gives_rate .or. step%end_time < method%horizon)
       if (method%needs_jacobian .and. method%here%span < huge(1.0_wp)) then
          associate (here => method%here, i => method%here%saturating)
-            call check_saturation(here, method%there, abs(here%jacobian(i, i)), here%resolution, step)
+            call check_saturation(here, method%there, abs(here%jacobian(i, i)), step)
          end associate
       end if
       if (is_fixed .or. step%scaled_error > 1.0_wp) return
@@ -80,8 +80,7 @@ contains
    !> A state that comes to the range at a large rate, to be held in it, may leave such a step on any side of it, by many times the
    !> error that the method estimates: its stages have met the one end of the rate and the other. Then the step changes the state by
    !> another rate than the mean of those at its ends. Where that which saturates moves the state by no more than the width of the
-   !> range within the step, the range is as smooth as any law. Within the range an error of the state is one of the rate, which is
-   !> known no better than the rounding of the time allows.
+   !> range within the step, the range is as smooth as any law.
    pure subroutine check_end(here, there, step)
       !> Rate with its derivatives at the start and at the end
       type(linear_t), intent(in) :: here, there
@@ -90,8 +89,6 @@ contains
 
       ! Difference of both rates over what saturates [-]: with 0.2 three slides of two thousand pass the range all the same
       real(wp), parameter :: much = 0.1_wp
-      ! Roundings of the time [-]
-      real(wp), parameter :: roundings = 4.0_wp
       ! What saturates, mean rate over the step less that of its ends [state/time]; derivative over the state [1/time]
       real(wp) :: span, difference, slope
 
@@ -104,20 +101,18 @@ contains
          end if
          slope = max(abs(here%jacobian(i, i)), abs(there%jacobian(i, i)))
       end associate
-      call check_saturation(here, there, slope, max(there%resolution, roundings*spacing(abs(step%end_time))*slope), step)
+      call check_saturation(here, there, slope, step)
    end subroutine check_end
 
    !> Raise the error of a step that crosses a range of the state within which the rate saturates, without seeing it.
    !>
    !> Its sign is an error of the state that the Jacobian turns into more than the allowed error of the rate. Without this check a
    !> step may jump from one side of a narrow range to the other, again and again.
-   pure subroutine check_saturation(here, there, slope, resolution, step)
+   pure subroutine check_saturation(here, there, slope, step)
       !> Rate with its derivatives at the start and at the end
       type(linear_t), intent(in) :: here, there
       !> Size of the derivative of the rate that saturates over its own component [1/time]
       real(wp), intent(in) :: slope
-      !> Error of that rate that is allowed, over the rate [-]
-      real(wp), intent(in) :: resolution
       !> The step
       type(step_t), intent(inout) :: step
 
@@ -129,7 +124,7 @@ contains
       associate (i => here%saturating)
          size_of_rate = span + abs(step%rate(i)) + abs(step%new_rate(i))
          if (size_of_rate > 0.0_wp) step%scaled_error = max(step%scaled_error, slope*abs(step%estimate(i)) &
-            & /(resolution*size_of_rate))
+            & /(here%resolution*size_of_rate))
       end associate
    end subroutine check_saturation
 
