@@ -85,13 +85,15 @@ contains
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       type(thin_films_t) :: films
+      real(wp) :: each(size(bearings, 1), size(bearings, 2)) ! [m]
       integer :: place(2)
 
+      each = bearings%film
       films%limit = smooth_limit(shaft)
-      films%smallest = minval(bearings%film)
+      films%smallest = minval(each)
       if (films%smallest >= films%limit) return
-      place = minloc(bearings%film)
-      films%others = count(bearings%film < films%limit) - 1
+      place = minloc(each)
+      films%others = count(each < films%limit) - 1
       call name_bearing(place(1), place(2), size(bearings, 2), films%bearing)
       call add_rubbing(films, allocated(shaft%touch), remarks)
    end subroutine judge_step_bearings
