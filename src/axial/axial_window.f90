@@ -57,10 +57,13 @@ contains
          bounds = fitting_bounds(window)
          shifts = (window%bounds - bounds)*[-1.0_wp, 1.0_wp]*size(window%loads)/(window%bounds(2) - window%bounds(1))
          if (all(shifts >= -less .and. shifts <= more) .and. .not. any(cut_ends(window))) return
+         if (i == max_fits) exit
          call spread_loads(window, bounds, loads)
          window%bounds = bounds
          window%loads = loads
       end do
+      ! A part with more or fewer slices beside the load is right, too, but not one that cuts the contact off
+      if (any(cut_ends(window))) status = 1
    end subroutine fit_window
 
    !> Solve the loads of a part, which gets wider where the contact would be cut off.

@@ -14,7 +14,7 @@ module camroller_deck_remarks
    use camroller_deck_schema, only : key_length, key_t, range_t, type_number, type_numbers
    use camroller_deck_values, only : read_value, value_t
    use camroller_unit_guess, only : ask_kinematic, is_usual, say_meant
-   use camroller_deck_joint_remarks, only : remark_end_drop, remark_pivot, remark_stem_axis
+   use camroller_deck_train_remarks, only : remark_end_drop, remark_pivot, remark_stem_axis
    use camroller_deck_sense, only : list_odd_pairs
    use camroller_deck_files, only : list_case_tables
    use camroller_deck_sweep, only : axis_of, first_case, sweep_axis_t, sweep_overrides

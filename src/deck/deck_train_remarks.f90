@@ -1,7 +1,7 @@
 !> Remarks on the joints of a deck, sliding ones and the finger's pivot, and on its roller: they take the geometry of its train.
 !>
 !> In: a deck. Out: sentences. Nothing is refused for them.
-module camroller_deck_joint_remarks
+module camroller_deck_train_remarks
    use camroller_axial_setup, only : last_drops
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, make_case, override_t
@@ -130,4 +130,4 @@ contains
       end associate
    end subroutine remark_end_drop
 
-end module camroller_deck_joint_remarks
+end module camroller_deck_train_remarks
