@@ -2,6 +2,7 @@
 module test_axial_window
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_axial_loads, only : solved_loads
+   use camroller_axial_window, only : fit_window, window_t
    use camroller_axial_table, only : axial_part_t, axial_state, axial_state_t, effective_lengths, new_axial_part, slice_loads
    use camroller_error, only : error_t
    use camroller_kinds, only : wp
@@ -28,7 +29,8 @@ contains
          new_unittest("lengths of crowned rollers are those of Hertz' ellipse at any load and number of slices", test_crowns), &
          new_unittest("a flatter crown has a longer contact", test_flatter), &
          new_unittest("a larger tilt has a shorter contact, and more load at the end", test_tilts), &
-         new_unittest("slices of the roller carry the load of a contact shorter than one of them", test_short) &
+         new_unittest("slices of the roller carry the load of a contact shorter than one of them", test_short), &
+         new_unittest("a part far shorter than the contact has no loads", test_cut_off) &
          ]
    end subroutine collect_axial_window
 
@@ -171,5 +173,25 @@ contains
       if (.not. allocated(error)) call check_close(error, solved(21), 41.0_wp, 1.0e-12_wp, "solved load")
       if (.not. allocated(error)) call check_close(error, sum(table)/41, 1.0_wp, 1.0e-12_wp, "sum")
    end subroutine test_short
+
+   !> A part of a thousandth of the roller in the middle of a contact all along it: a fifth longer twelve times, it cuts it off still.
+   subroutine test_cut_off(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(window_t) :: window
+      type(roller_profile_t) :: profile
+      integer :: status
+
+      profile%profile = "crowned"
+      profile%crown_radius = 1.0_wp
+      window%bounds = [-0.5e-3_wp, 0.5e-3_wp]
+      allocate (window%loads(41), source=1.0_wp)
+      call fit_window(window, profile, roller_length, modulus, 300.0_wp, radius, status)
+      call check(error, status > 0, "loads of a contact that is cut off")
+      if (allocated(error)) return
+      window%bounds = [-0.5_wp, 0.5_wp]
+      window%loads = 1.0_wp
+      call fit_window(window, profile, roller_length, modulus, 300.0_wp, radius, status)
+      call check(error, status == 0, "no loads from the whole roller on")
+   end subroutine test_cut_off
 
 end module test_axial_window
