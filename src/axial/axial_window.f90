@@ -266,8 +266,8 @@ contains
       !> Loads per length over the mean of the other part, with all the load on it [-]
       real(wp), intent(out) :: loads(:)
 
-      ! Place among the slices of this part; load up to a place, before and behind a slice, over the mean of this part [slices]
-      real(wp) :: place, before, behind
+      ! Load up to a place, before and behind a slice, over the mean of this part [slices]
+      real(wp) :: before, behind
       integer :: i, n
 
       n = size(window%loads)
@@ -275,12 +275,19 @@ contains
          loads = window%loads
          return
       end if
-      do i = 0, size(loads)
-         place = (bounds(1) + (bounds(2) - bounds(1))*i/size(loads) - window%bounds(1))/(window%bounds(2) - window%bounds(1))*n
-         behind = load_up_to(window%loads, place)
-         if (i > 0) loads(i) = (behind - before)*size(loads)/n
+      before = load_up_to(window%loads, place_of(0))
+      do i = 1, size(loads)
+         behind = load_up_to(window%loads, place_of(i))
+         loads(i) = (behind - before)*size(loads)/n
          before = behind
       end do
+   contains
+      !> Where, among the slices of this part, the first `i` slices of the other one end [slices].
+      pure real(wp) function place_of(i) result(place)
+         integer, intent(in) :: i
+
+         place = (bounds(1) + (bounds(2) - bounds(1))*i/size(loads) - window%bounds(1))/(window%bounds(2) - window%bounds(1))*n
+      end function place_of
    end subroutine spread_loads
 
 end module camroller_axial_window

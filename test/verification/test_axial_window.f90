@@ -174,7 +174,7 @@ contains
       if (.not. allocated(error)) call check_close(error, sum(table)/41, 1.0_wp, 1.0e-12_wp, "sum")
    end subroutine test_short
 
-   !> A part of a thousandth of the roller in the middle of a contact all along it: a fifth longer twelve times, it cuts it off still.
+   !> A part of a thousandth of the roller amid a contact all along it: a fifth longer twelve times, it still cuts the contact off.
    subroutine test_cut_off(error)
       type(error_type), allocatable, intent(out) :: error
       type(window_t) :: window
