@@ -52,6 +52,7 @@ program main
    use test_output, only : collect_output
    use test_export, only : collect_export
    use test_new_file, only : collect_new_file
+   use test_deck_binder, only : collect_deck_binder
    use test_deck_document, only : collect_deck_document
    use test_deck_tables, only : collect_deck_tables
    use test_deck_threads, only : collect_deck_threads
@@ -268,6 +269,7 @@ contains
          new_testsuite("output", collect_output), &
          new_testsuite("export", collect_export), &
          new_testsuite("new_file", collect_new_file), &
+         new_testsuite("deck_binder", collect_deck_binder), &
          new_testsuite("deck_document", collect_deck_document), &
          new_testsuite("deck_tables", collect_deck_tables), &
          new_testsuite("deck_threads", collect_deck_threads), &

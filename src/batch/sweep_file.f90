@@ -10,6 +10,7 @@ module camroller_sweep_file
    use camroller_case_runs, only : missing_runs, run_total, runs_t
    use camroller_case_writer, only : abandon_cases, case_writer_t, close_cases, open_cases, tally_t, write_missing
    use camroller_deck, only : deck_t
+   use camroller_deck_keys, only : take_output_options
    use camroller_deck_sweep, only : case_in_words
    use camroller_deck_sweep_keys, only : series_choice, series_chosen, series_none
    use camroller_earlier_result, only : complete_there, earlier_t, failures_in_words, look_at_earlier, other_there
@@ -20,7 +21,6 @@ module camroller_sweep_file
    use camroller_part_file, only : find_parts, part_beginning, scan_part
    use camroller_part_scan, only : index_t, study_facts_t
    use camroller_result_claim, only : claim_result, claim_t, give_up_claim, remove_unfinished
-   use camroller_settings, only : take
    use camroller_system_file, only : pause_briefly, remove_file
    implicit none
    private
@@ -119,8 +119,7 @@ contains
       type(output_options_t) :: options
       integer :: series
 
-      call take(deck%settings, "output", "series", options%series)
-      call take(deck%settings, "output", "compression", options%compression)
+      call take_output_options(deck%settings, options)
       series = series_choice(deck%settings)
       if (.not. is_direct) options%series = series /= series_none
       call open_cases(writer, study%path, deck, study%facts, options, series == series_chosen .and. .not. is_direct, .true., &

@@ -15,7 +15,8 @@ module camroller_lubricant
    implicit none
    private
 
-   public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names, law_barus, law_cameron, law_roelands, law_direct
+   public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names, law_barus, law_cameron, law_roelands
+   public :: law_direct, law_vogel, law_walther, law_data_sheet
    public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity, density_at, pressure_limit
    public :: sheet_temperatures
 

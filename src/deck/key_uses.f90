@@ -3,18 +3,27 @@
 !> In: settings, and a sweep whose keys vary. Out: whether a key is idle, and when it is used, in words. Where one of several rows
 !> of a key holds, the key is used. A choice that has no effect itself makes no use of another key.
 module camroller_key_uses
-   use camroller_kinds, only : wp
+   use camroller_asperity, only : asperity_law_names, law_greenwood_tripp, law_zhao_maietta_chang
+   use camroller_boundary_law, only : boundary_law_names, boundary_logarithmic, boundary_table
+   use camroller_case, only : select_names, select_needed
    use camroller_deck_schema, only : key_length
    use camroller_deck_sweep, only : axis_of, sweep_t
    use camroller_deck_values, only : value_t
+   use camroller_kinds, only : wp
+   use camroller_lift, only : lift_law_names, law_power, law_polydyne, law_345, law_4567, law_cycloidal, law_segments, law_table
+   use camroller_lubricant, only : temperature_law_names, law_direct, law_vogel, law_walther, law_data_sheet
+   use camroller_needle, only : roller_bearing_names, kind_journal, kind_needles, kind_skf
+   use camroller_roller_profile, only : profile_names, profile_crowned, profile_logarithmic
+   use camroller_samples, only : sample_names
    use camroller_settings, only : find_value, has_group, settings_t
+   use camroller_traction, only : limit_names, limit_local, shear_law_names, law_eyring
    implicit none
    private
 
    public :: is_idle, say_idle, say_use
 
    !> Length of the names of choices, and of a list of their values
-   integer, parameter :: choice_length = 64
+   integer, parameter :: choice_length = 96
    !> Signs in the place of values: any value, or a group that is there; no value, or a group that is not there; a number above
    !> zero; a command that is no run
    character(len=*), parameter :: given = "(given)", not_given = "(not given)", above_zero = "(above zero)", &
@@ -34,58 +43,71 @@ module camroller_key_uses
       character(len=key_length) :: group = ""
    end type key_use_t
 
-   !> Laws of lift with angles, those of the oil's viscosity over the temperature that need its density, or points, those of
-   !> asperities with summits
-   character(len=*), parameter :: angle_laws = "power polydyne polynomial_345 polynomial_4567 cycloidal", &
-      & density_laws = "walther data_sheet", point_laws = "vogel walther", summit_laws = "greenwood_tripp zhao_maietta_chang"
+   !> Laws of lift with exponents, and with angles
+   character(len=*), parameter :: exponent_laws = trim(lift_law_names(law_power))//" "//trim(lift_law_names(law_polydyne)), &
+      & angle_laws = exponent_laws//" "//trim(lift_law_names(law_345))//" "//trim(lift_law_names(law_4567))//" "// &
+      & trim(lift_law_names(law_cycloidal)), segment_law = trim(lift_law_names(law_segments)), table_law = lift_law_names(law_table)
+   !> Laws of the oil's viscosity over the temperature: direct, by its data sheet, through points, that need its density
+   character(len=*), parameter :: direct_law = temperature_law_names(law_direct), &
+      & sheet_law = temperature_law_names(law_data_sheet), walther_law = trim(temperature_law_names(law_walther)), &
+      & point_laws = trim(temperature_law_names(law_vogel))//" "//walther_law, density_laws = walther_law//" "//sheet_law
+   !> Laws of asperities with summits; of boundary friction over the logarithm of the speed, and by a table
+   character(len=*), parameter :: summit_laws = trim(asperity_law_names(law_greenwood_tripp))//" "// &
+      & asperity_law_names(law_zhao_maietta_chang), logarithm_law = boundary_law_names(boundary_logarithmic), &
+      & points_law = boundary_law_names(boundary_table)
+   !> Bearings of the roller: with needles, by SKF's model, with a film on the pin
+   character(len=*), parameter :: skf_kind = roller_bearing_names(kind_skf), pin_kind = roller_bearing_names(kind_journal), &
+      & needle_kinds = trim(roller_bearing_names(kind_needles))//" "//skf_kind
+   !> Samples of a sweep
+   character(len=*), parameter :: samples = trim(sample_names(1))//" "//trim(sample_names(2))//" "//trim(sample_names(3))
 
    !> The second lift is like the first, and `#` is the number of a key of &sweep
    type(key_use_t), parameter :: uses(*) = [ &
-      key_use_t("lift.max_lift_mm", "law", angle_laws//" segments"), &
+      key_use_t("lift.max_lift_mm", "law", angle_laws//" "//segment_law), &
       key_use_t("lift.opening_half_angle_deg", "law", angle_laws), &
       key_use_t("lift.closing_half_angle_deg", "law", angle_laws), &
-      key_use_t("lift.exponents", "law", "power polydyne"), &
-      key_use_t("lift.segment_angles_deg", "law", "segments"), &
-      key_use_t("lift.segment_accelerations", "law", "segments"), &
-      key_use_t("lift.table", "law", "table"), &
-      key_use_t("lift.table_kind", "law", "table"), &
-      key_use_t("lift.table_unit", "law", "table"), &
-      key_use_t("lift.table_nose_angle_deg", "law", "table"), &
-      key_use_t("lift.smoothing_um", "law", "table"), &
+      key_use_t("lift.exponents", "law", exponent_laws), &
+      key_use_t("lift.segment_angles_deg", "law", segment_law), &
+      key_use_t("lift.segment_accelerations", "law", segment_law), &
+      key_use_t("lift.table", "law", table_law), &
+      key_use_t("lift.table_kind", "law", table_law), &
+      key_use_t("lift.table_unit", "law", table_law), &
+      key_use_t("lift.table_nose_angle_deg", "law", table_law), &
+      key_use_t("lift.smoothing_um", "law", table_law), &
       key_use_t("mechanism.adjuster_tilt_deg", "masses.finger_kg", given), &
       key_use_t("masses.finger_centre_mm", "masses.finger_kg", given), &
       key_use_t("spring.seat_stiffness_N_m", "seating", "continuous"), &
-      key_use_t("lubricant.viscosity_Pa_s", "temperature_law", "direct"), &
+      key_use_t("lubricant.viscosity_Pa_s", "temperature_law", direct_law), &
       key_use_t("lubricant.temperature_points_degC", "temperature_law", point_laws), &
       key_use_t("lubricant.viscosity_points_Pa_s", "temperature_law", point_laws), &
-      key_use_t("lubricant.viscosity_at_40_degC_mm2_s", "temperature_law", "data_sheet"), &
-      key_use_t("lubricant.viscosity_at_100_degC_mm2_s", "temperature_law", "data_sheet"), &
-      key_use_t("lubricant.viscosity_index", "temperature_law", "data_sheet"), &
-      key_use_t("lubricant.sae_grade", "temperature_law", "data_sheet"), &
+      key_use_t("lubricant.viscosity_at_40_degC_mm2_s", "temperature_law", sheet_law), &
+      key_use_t("lubricant.viscosity_at_100_degC_mm2_s", "temperature_law", sheet_law), &
+      key_use_t("lubricant.viscosity_index", "temperature_law", sheet_law), &
+      key_use_t("lubricant.sae_grade", "temperature_law", sheet_law), &
       key_use_t("lubricant.density_kg_m3", "temperature_law", density_laws), &
       key_use_t("lubricant.density_kg_m3", "&needle_drag"), &
-      key_use_t("lubricant.density_kg_m3", "needle_bearing.kind", "needles_skf"), &
+      key_use_t("lubricant.density_kg_m3", "needle_bearing.kind", skf_kind), &
       key_use_t("lubricant.density_kg_m3", "bearing_heat.oil_share", above_zero, "bearing_heat"), &
       key_use_t("lubricant.thermal_expansion_per_K", "temperature_law", density_laws), &
       key_use_t("lubricant.thermal_expansion_per_K", "&needle_drag"), &
-      key_use_t("lubricant.thermal_expansion_per_K", "needle_bearing.kind", "needles_skf"), &
+      key_use_t("lubricant.thermal_expansion_per_K", "needle_bearing.kind", skf_kind), &
       key_use_t("lubricant.thermal_expansion_per_K", "bearing_heat.oil_share", above_zero, "bearing_heat"), &
       key_use_t("lubricant.density_kg_m3", "ehl.profiles", yes, "heat"), &
       key_use_t("lubricant.thermal_expansion_per_K", "ehl.profiles", yes, "heat"), &
       key_use_t("lubricant.roelands_index", "pressure_viscosity_coefficient_per_GPa", not_given), &
       key_use_t("film.law", "&ehl", not_given), &
       key_use_t("film.law", "ehl.profiles", yes), &
-      key_use_t("film.law", "effects.select", "needed"), &
+      key_use_t("film.law", "effects.select", select_names(select_needed)), &
       key_use_t("film.law", "camroller ehl", by_command), &
       key_use_t("ehl.shear_thinning", "profiles", yes), &
       key_use_t("ehl.shear_thinning", "camroller ehl", by_command), &
       key_use_t("ehl.flow_factors", "profiles", yes), &
       key_use_t("ehl.flow_factors", "camroller ehl", by_command), &
-      key_use_t("traction.eyring_stress_MPa", "shear_law", "eyring"), &
-      key_use_t("traction.limiting_stress_MPa", "limit", "local"), &
-      key_use_t("roller_profile.crown_radius_mm", "profile", "crowned"), &
-      key_use_t("roller_profile.design_load_N", "profile", "logarithmic"), &
-      key_use_t("roller_profile.end_drop_um", "profile", "logarithmic"), &
+      key_use_t("traction.eyring_stress_MPa", "shear_law", shear_law_names(law_eyring)), &
+      key_use_t("traction.limiting_stress_MPa", "limit", limit_names(limit_local)), &
+      key_use_t("roller_profile.crown_radius_mm", "profile", profile_names(profile_crowned)), &
+      key_use_t("roller_profile.design_load_N", "profile", profile_names(profile_logarithmic)), &
+      key_use_t("roller_profile.end_drop_um", "profile", profile_names(profile_logarithmic)), &
       key_use_t("heat.oil_heat_capacity_J_kg_K", "ehl.profiles", yes), &
       key_use_t("heat.limit_fall_per_K", "contact", "mean"), &
       key_use_t("heat.cam_conductivity_W_m_K", "contact", "mean"), &
@@ -104,29 +126,29 @@ module camroller_key_uses
       key_use_t("asperity.roughness_product", "law", summit_laws), &
       key_use_t("asperity.roughness_over_tip_radius", "law", summit_laws), &
       key_use_t("asperity.boundary_coefficient", "&boundary_law", not_given), &
-      key_use_t("asperity.boundary_coefficient", "boundary_law.law", "logarithmic"), &
+      key_use_t("asperity.boundary_coefficient", "boundary_law.law", logarithm_law), &
       key_use_t("asperity.mobilising_speed_m_s", "mobilisation", "regularised"), &
-      key_use_t("boundary_law.reference_speed_m_s", "law", "logarithmic"), &
-      key_use_t("boundary_law.reference_temperature_degC", "law", "logarithmic"), &
-      key_use_t("boundary_law.change_per_decade", "law", "logarithmic"), &
-      key_use_t("boundary_law.change_per_K", "law", "logarithmic"), &
-      key_use_t("boundary_law.lowest_speed_m_s", "law", "logarithmic"), &
-      key_use_t("boundary_law.speed_points_m_s", "law", "table"), &
-      key_use_t("boundary_law.temperature_points_degC", "law", "table"), &
-      key_use_t("boundary_law.coefficient_points", "law", "table"), &
-      key_use_t("needle_bearing.needle_radius_mm", "kind", "needles needles_skf"), &
-      key_use_t("needle_bearing.skf_rolling_factor", "kind", "needles_skf"), &
-      key_use_t("needle_bearing.skf_sliding_factor", "kind", "needles_skf"), &
-      key_use_t("needle_bearing.skf_geometry_factor", "kind", "needles_skf"), &
-      key_use_t("needle_bearing.skf_replenishment_factor", "kind", "needles_skf"), &
-      key_use_t("needle_bearing.skf_film_coefficient", "kind", "needles_skf"), &
-      key_use_t("needle_bearing.pin_law", "kind", "journal"), &
-      key_use_t("needle_bearing.pin_width_mm", "kind", "journal"), &
-      key_use_t("needle_bearing.pin_radial_clearance_um", "kind", "journal"), &
-      key_use_t("needle_bearing.pin_roughness_um", "kind", "journal"), &
-      key_use_t("needle_bearing.pin_modulus_GPa", "kind", "journal"), &
-      key_use_t("needle_bearing.pin_roughness_product", "kind", "journal"), &
-      key_use_t("needle_bearing.pin_roughness_over_tip_radius", "kind", "journal"), &
+      key_use_t("boundary_law.reference_speed_m_s", "law", logarithm_law), &
+      key_use_t("boundary_law.reference_temperature_degC", "law", logarithm_law), &
+      key_use_t("boundary_law.change_per_decade", "law", logarithm_law), &
+      key_use_t("boundary_law.change_per_K", "law", logarithm_law), &
+      key_use_t("boundary_law.lowest_speed_m_s", "law", logarithm_law), &
+      key_use_t("boundary_law.speed_points_m_s", "law", points_law), &
+      key_use_t("boundary_law.temperature_points_degC", "law", points_law), &
+      key_use_t("boundary_law.coefficient_points", "law", points_law), &
+      key_use_t("needle_bearing.needle_radius_mm", "kind", needle_kinds), &
+      key_use_t("needle_bearing.skf_rolling_factor", "kind", skf_kind), &
+      key_use_t("needle_bearing.skf_sliding_factor", "kind", skf_kind), &
+      key_use_t("needle_bearing.skf_geometry_factor", "kind", skf_kind), &
+      key_use_t("needle_bearing.skf_replenishment_factor", "kind", skf_kind), &
+      key_use_t("needle_bearing.skf_film_coefficient", "kind", skf_kind), &
+      key_use_t("needle_bearing.pin_law", "kind", pin_kind), &
+      key_use_t("needle_bearing.pin_width_mm", "kind", pin_kind), &
+      key_use_t("needle_bearing.pin_radial_clearance_um", "kind", pin_kind), &
+      key_use_t("needle_bearing.pin_roughness_um", "kind", pin_kind), &
+      key_use_t("needle_bearing.pin_modulus_GPa", "kind", pin_kind), &
+      key_use_t("needle_bearing.pin_roughness_product", "kind", pin_kind), &
+      key_use_t("needle_bearing.pin_roughness_over_tip_radius", "kind", pin_kind), &
       key_use_t("valve_tip.decay_speed_m_s", "law", "stribeck"), &
       key_use_t("valve_tip.viscous_part_s_m", "law", "stribeck"), &
       key_use_t("valve_tip.reference_viscosity_Pa_s", "law", "stribeck"), &
@@ -146,11 +168,13 @@ module camroller_key_uses
       key_use_t("cam_bearings.cam_cylinders", "&engine"), &
       key_use_t("dynamics.seat_damping_s_m", "seat_restitution", not_given), &
       key_use_t("dynamics.seat_restitution_speed_m_s", "seat_restitution", given), &
-      key_use_t("effects.negligible", "select", "needed"), key_use_t("effects.negligible", "camroller audit", by_command), &
-      key_use_t("effects.quantity", "select", "needed"), key_use_t("effects.quantity", "camroller audit", by_command), &
+      key_use_t("effects.negligible", "select", select_names(select_needed)), &
+      key_use_t("effects.negligible", "camroller audit", by_command), &
+      key_use_t("effects.quantity", "select", select_names(select_needed)), &
+      key_use_t("effects.quantity", "camroller audit", by_command), &
       key_use_t("numerics.step_deg", "method", "euler"), &
       key_use_t("numerics.periodicity", "tolerance", given), &
-      key_use_t("sweep.seed", "kind", "latin_hypercube sobol random"), &
+      key_use_t("sweep.seed", "kind", samples), &
       key_use_t("sweep.count_#", "kind", "grid zip"), &
       key_use_t("sweep.scale_#", "from_#", given), &
       key_use_t("sweep.series_cases", "series", "chosen")]

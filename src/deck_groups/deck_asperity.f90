@@ -1,14 +1,14 @@
-!> Decks: what laws of asperities need of other groups; the friction modifier on them.
+!> Decks: asperities of cam and roller, and the friction modifier on them.
 !>
-!> In: schema, settings. Out: the modifier's group and keys and its component of a case; mistakes.
+!> In: keys, settings. Out: their groups, the components of a case, and the rules that tie their keys to others.
 module camroller_deck_asperity
-   use camroller_asperity, only : asperity_law_names, friction_modifier_t, law_masjedi_khonsari_asperities, &
+   use camroller_asperity, only : asperity_law_names, boundary_names, mobilisation_names, law_masjedi_khonsari_asperities, &
       & law_zhao_maietta_chang, smallest_product
    use camroller_boundary_law, only : boundary_law_names, boundary_table
    use camroller_case, only : case_t
+   use camroller_deck_binder, only : keys_t
    use camroller_deck_complaint, only : complain, complain_about_group, demand
-   use camroller_deck_schema, only : schema_t, add_group, add_number, group_effect, not_negative, positive, proper_fraction, &
-      & above_absolute_zero
+   use camroller_deck_schema, only : group_effect, positive, not_negative, proper_fraction, above_absolute_zero
    use camroller_film, only : film_law_names, law_masjedi_khonsari_rough
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
@@ -16,48 +16,66 @@ module camroller_deck_asperity
    implicit none
    private
 
-   public :: add_modifier_keys, fill_modifier, check_asperities, check_modifier
+   public :: bind_asperity, bind_modifier, check_asperities, check_modifier
 
 contains
 
-   !> Group and keys of the friction modifier.
-   subroutine add_modifier_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(friction_modifier_t) :: standard
-
-      call add_group(schema, "friction_modifier", group_effect, &
-         & "additive that covers the asperities of cam and roller and lowers their friction")
-      call add_number(schema, "coefficient", not_negative, "friction coefficient of touching asperities that it covers", &
-         & example="0.06")
-      call add_number(schema, "coverage", proper_fraction, "part of the surfaces that it covers at the reference temperature", &
-         & example="0.7")
-      call add_number(schema, "reference_temperature_degC", above_absolute_zero, &
-         & "temperature that the coverage is given for", example="60")
-      call add_number(schema, "adsorption_heat_kJ_mol", not_negative, "heat that it gives off as it is adsorbed; more of it "// &
-         & "means that less is left when hot", example="40")
-      call add_number(schema, "concentration_ratio", positive, "its concentration over that at which the coverage is given", &
-         & default=standard%concentration_ratio)
-   end subroutine add_modifier_keys
-
-   !> Fill the friction modifier of a case.
-   subroutine fill_modifier(settings, case)
-      !> The settings
-      type(settings_t), intent(in) :: settings
+   !> Asperities.
+   subroutine bind_asperity(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (.not. has_group(settings, "friction_modifier")) return
+      call keys%group("asperity", group_effect, "asperities that share the load, and boundary friction")
+      if (.not. keys%are_wanted()) return
+      allocate (case%asperity)
+      associate (asperity => case%asperity)
+         call keys%choice("law", asperity_law_names, "elastic asperities of both surfaces, asperities of one that yield, which "// &
+            & "need materials.hardness_GPa, or the regression that goes with film law 'masjedi_khonsari_rough'", asperity%law)
+         call keys%number("roughness_product", positive, "asperity density times tip radius times roughness", &
+            & asperity%roughness_product, usual=[0.01_wp, 0.15_wp])
+         call keys%number("roughness_over_tip_radius", positive, "ratio of roughness to tip radius", &
+            & asperity%roughness_over_tip_radius, usual=[1.0e-5_wp, 0.1_wp])
+         call keys%number("boundary_coefficient", not_negative, "friction coefficient of touching asperities", &
+            & asperity%boundary_coefficient, example="0.2", is_optional=.true., usual=[0.0_wp, 0.5_wp])
+         call keys%number("film_shear_strength_MPa", not_negative, "shear strength of the surface film on the real contact area", &
+            & asperity%film_shear_strength, usual=[0.0_wp, 100.0_wp])
+         call keys%choice("boundary", boundary_names, "boundary friction that counts as a loss: the part mobilised by slip, or "// &
+            & "all of it", asperity%boundary)
+         call keys%choice("mobilisation", mobilisation_names, &
+            & "boundary friction as a function of slip: it grows with the sliding speed, or the roller sticks and slides", &
+            & asperity%mobilisation)
+         call keys%number("mobilising_speed_m_s", positive, "sliding speed that mobilises regularised boundary friction", &
+            & asperity%mobilising_speed, usual=[1.0e-6_wp, 0.05_wp])
+      end associate
+   end subroutine bind_asperity
+
+   !> Friction modifier.
+   subroutine bind_modifier(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
+      !> The case
+      type(case_t), intent(inout) :: case
+
+      call keys%group("friction_modifier", group_effect, "additive that covers the asperities of cam and roller and lowers "// &
+         & "their friction")
+      if (.not. keys%are_wanted()) return
       allocate (case%friction_modifier)
       associate (modifier => case%friction_modifier)
-         call take(settings, "friction_modifier", "coefficient", modifier%coefficient)
-         call take(settings, "friction_modifier", "coverage", modifier%reference_coverage)
-         call take(settings, "friction_modifier", "reference_temperature_degC", modifier%reference_temperature)
-         call take(settings, "friction_modifier", "adsorption_heat_kJ_mol", modifier%adsorption_heat)
-         call take(settings, "friction_modifier", "concentration_ratio", modifier%concentration_ratio)
+         call keys%number("coefficient", not_negative, "friction coefficient of touching asperities that it covers", &
+            & modifier%coefficient, example="0.06", usual=[0.02_wp, 0.2_wp])
+         call keys%number("coverage", proper_fraction, "part of the surfaces that it covers at the reference temperature", &
+            & modifier%reference_coverage, example="0.7", usual=[0.01_wp, 0.999_wp])
+         call keys%number("reference_temperature_degC", above_absolute_zero, "temperature that the coverage is given for", &
+            & modifier%reference_temperature, example="60", usual=[-40.0_wp, 200.0_wp])
+         call keys%number("adsorption_heat_kJ_mol", not_negative, &
+            & "heat that it gives off as it is adsorbed; more of it means that less is left when hot", modifier%adsorption_heat, &
+            & example="40", usual=[5.0_wp, 150.0_wp])
+         call keys%number("concentration_ratio", positive, "its concentration over that at which the coverage is given", &
+            & modifier%concentration_ratio, usual=[0.001_wp, 1000.0_wp])
       end associate
-   end subroutine fill_modifier
+   end subroutine bind_modifier
 
    !> A friction modifier covers asperities.
    subroutine check_modifier(settings, mistakes)

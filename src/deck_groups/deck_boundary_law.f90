@@ -1,80 +1,61 @@
 !> Decks: the law of the boundary coefficient.
 !>
-!> In: schema, settings. Out: group and keys, the component of a case, and the rules that tie its keys to others.
+!> In: keys, settings. Out: the group, the component of a case, and the rules that tie its keys to others.
 module camroller_deck_boundary_law
    use camroller_boundary_law, only : boundary_law_names, boundary_law_t, boundary_logarithmic, boundary_table
    use camroller_case, only : case_t
+   use camroller_deck_binder, only : keys_t
    use camroller_deck_complaint, only : complain, complain_about_group, demand
-   use camroller_deck_schema, only : schema_t, add_group, add_name, add_number, add_numbers, anything, group_effect, not_negative, &
-      & positive, above_absolute_zero
+   use camroller_deck_schema, only : group_effect, anything, positive, not_negative, above_absolute_zero
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, get_word, has_group, is_known, take
    implicit none
    private
 
-   public :: add_boundary_law_keys, fill_boundary_law, check_boundary_law
+   public :: bind_boundary_law, check_boundary_law
 
    character(len=*), parameter :: group = "boundary_law"
 
 contains
 
-   !> Group and keys.
-   subroutine add_boundary_law_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(boundary_law_t) :: standard
-
-      call add_group(schema, "boundary_law", group_effect, &
-         & "friction coefficient of touching asperities over sliding speed and temperature, in place of a constant one")
-      call add_name(schema, "law", boundary_law_names, standard%law, &
-         & "logarithm of the speed and straight line of the temperature, or a table over both")
-      call add_number(schema, "reference_speed_m_s", positive, "sliding speed at which the coefficient is that of &asperity", &
-         & is_optional=.true., example="0.1")
-      call add_number(schema, "reference_temperature_degC", above_absolute_zero, "temperature at which it is", is_optional=.true., &
-         & example="100")
-      call add_number(schema, "change_per_decade", anything, "change of the coefficient where the sliding speed is ten times "// &
-         & "as high", is_optional=.true., example="0.01")
-      call add_number(schema, "change_per_K", anything, "change of the coefficient with the temperature", is_optional=.true., &
-         & example="-0.0002")
-      call add_number(schema, "lowest_speed_m_s", positive, "sliding speed below which the logarithm levels off", &
-         & is_optional=.true., example="0.001")
-      call add_number(schema, "smallest_coefficient", not_negative, "coefficient below which the law does not go", &
-         & default=standard%smallest)
-      call add_number(schema, "largest_coefficient", not_negative, "coefficient above which the law does not go", &
-         & default=standard%largest)
-      call add_numbers(schema, "speed_points_m_s", positive, "sliding speeds of a table, increasing", is_optional=.true., &
-         & example="0.01, 0.1, 1")
-      call add_numbers(schema, "temperature_points_degC", above_absolute_zero, "temperatures of a table, increasing", &
-         & is_optional=.true., example="60, 120")
-      call add_numbers(schema, "coefficient_points", not_negative, "coefficients of a table: those of all speeds at the first "// &
-         & "temperature, then at the next", is_optional=.true., example="0.11, 0.12, 0.13, 0.10, 0.11, 0.12")
-   end subroutine add_boundary_law_keys
-
-   !> Fill the component of a case.
-   subroutine fill_boundary_law(settings, case)
-      !> The settings
-      type(settings_t), intent(in) :: settings
+   !> Group and keys, and the component of a case.
+   subroutine bind_boundary_law(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (.not. has_group(settings, group)) return
+      call keys%group(group, group_effect, "friction coefficient of touching asperities over sliding speed and "// &
+         & "temperature, in place of a constant one")
+      if (.not. keys%are_wanted()) return
       allocate (case%boundary_law)
       associate (law => case%boundary_law)
-         call take(settings, "boundary_law", "law", law%law)
-         call take(settings, "boundary_law", "reference_speed_m_s", law%reference_speed)
-         call take(settings, "boundary_law", "reference_temperature_degC", law%reference_temperature)
-         call take(settings, "boundary_law", "change_per_decade", law%change_per_decade)
-         call take(settings, "boundary_law", "change_per_K", law%temperature_slope)
-         call take(settings, "boundary_law", "lowest_speed_m_s", law%lowest_speed)
-         call take(settings, "boundary_law", "smallest_coefficient", law%smallest)
-         call take(settings, "boundary_law", "largest_coefficient", law%largest)
-         call take(settings, "boundary_law", "speed_points_m_s", law%speed_points)
-         call take(settings, "boundary_law", "temperature_points_degC", law%temperature_points)
-         call take(settings, "boundary_law", "coefficient_points", law%coefficient_points)
+         call keys%choice("law", boundary_law_names, "logarithm of the speed and straight line of the temperature, or a table "// &
+            & "over both", law%law)
+         call keys%number("reference_speed_m_s", positive, "sliding speed at which the coefficient is that of &asperity", &
+            & law%reference_speed, example="0.1", is_optional=.true., usual=[1.0e-4_wp, 20.0_wp])
+         call keys%number("reference_temperature_degC", above_absolute_zero, "temperature at which it is", &
+            & law%reference_temperature, example="100", is_optional=.true., usual=[-40.0_wp, 250.0_wp])
+         call keys%number("change_per_decade", anything, "change of the coefficient where the sliding speed is ten times as high", &
+            & law%change_per_decade, example="0.01", is_optional=.true., usual=[-0.05_wp, 0.05_wp])
+         call keys%number("change_per_K", anything, "change of the coefficient with the temperature", law%temperature_slope, &
+            & example="-0.0002", is_optional=.true., usual=[-2.0e-3_wp, 2.0e-3_wp])
+         call keys%number("lowest_speed_m_s", positive, "sliding speed below which the logarithm levels off", law%lowest_speed, &
+            & example="0.001", is_optional=.true., usual=[1.0e-6_wp, 0.1_wp])
+         call keys%number("smallest_coefficient", not_negative, "coefficient below which the law does not go", law%smallest, &
+            & usual=[0.0_wp, 0.2_wp])
+         call keys%number("largest_coefficient", not_negative, "coefficient above which the law does not go", law%largest, &
+            & usual=[0.05_wp, 1.0_wp])
+         call keys%numbers("speed_points_m_s", positive, "sliding speeds of a table, increasing", law%speed_points, &
+            & example="0.01, 0.1, 1", is_optional=.true., usual=[1.0e-5_wp, 20.0_wp])
+         call keys%numbers("temperature_points_degC", above_absolute_zero, "temperatures of a table, increasing", &
+            & law%temperature_points, example="60, 120", is_optional=.true., usual=[-40.0_wp, 250.0_wp])
+         call keys%numbers("coefficient_points", not_negative, &
+            & "coefficients of a table: those of all speeds at the first temperature, then at the next", law%coefficient_points, &
+            & example="0.11, 0.12, 0.13, 0.10, 0.11, 0.12", is_optional=.true., usual=[0.01_wp, 0.5_wp])
       end associate
-   end subroutine fill_boundary_law
+   end subroutine bind_boundary_law
 
    !> Rules: each law has its keys, and asperities that it is for.
    subroutine check_boundary_law(settings, mistakes)

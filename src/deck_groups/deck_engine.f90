@@ -1,12 +1,12 @@
 !> The engine of a deck: its keys, the rules between them, and what they come to.
 !>
-!> In: settings. Out: mistakes; the engine of a case, with every cam of every camshaft in its place and phase.
+!> In: keys, settings. Out: mistakes; the engine of a case, with every cam of every camshaft in its place and phase.
 module camroller_deck_engine
+   use camroller_deck_binder, only : keys_t
    use camroller_kinds, only : wp
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group
-   use camroller_deck_schema, only : schema_t, add_group, add_number, add_integer, add_integers, add_name, add_numbers, &
-      & from_to, group_effect, one_or_more, positive
+   use camroller_deck_schema, only : group_effect, positive, from_to, one_or_more
    use camroller_engine, only : engine_t, cam_phases_of, cam_turns, speed_names
    use camroller_mistakes, only : mistakes_t
    use camroller_number_text, only : counted, integer_text
@@ -14,33 +14,39 @@ module camroller_deck_engine
    implicit none
    private
 
-   public :: add_engine_keys, check_engine, fill_engine, strokes_of
+   public :: bind_engine, check_engine, place_cams, strokes_of
 
    character(len=*), parameter :: group = "engine", bearings = "cam_bearings"
 
 contains
 
-   !> Keys of the engine.
-   subroutine add_engine_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
+   !> Group and keys, and the component of a case.
+   subroutine bind_engine(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
+      !> The case
+      type(case_t), intent(inout) :: case
 
-      type(engine_t) :: standard
-
-      call add_group(schema, group, group_effect, &
-         & "engine that the camshafts belong to: phases from the firing order, mean pressures, harmonics of the drive torque")
-      call add_integer(schema, "cylinders", one_or_more, "number of cylinders, which fire at equal distances", example="4")
-      call add_number(schema, "displacement_cm3", positive, "volume displaced by all cylinders", example="1998")
-      call add_integer(schema, "strokes", from_to(2.0_wp, 4.0_wp), "strokes of a working cycle: 2 or 4", default=standard%strokes)
-      call add_integers(schema, "firing_order", one_or_more, "cylinders in the order in which they fire", example="1, 3, 4, 2")
-      call add_name(schema, "given_speed", speed_names, speed_names(1), "whose speed operating_point.speed_rpm is")
-      call add_integer(schema, "camshafts", from_to(1.0_wp, 2.0_wp), &
-         & "camshafts: with 2, each has all the cams of cam_bearings.cam_positions_mm, the first one with the lobe shape of "// &
-         & "&lift, the second one with that of &second_lift", default=standard%camshafts)
-      call add_numbers(schema, "full_lift_deg", from_to(-720.0_wp, 720.0_wp), &
+      call keys%group(group, group_effect, "engine that the camshafts belong to: phases from the firing order, mean "// &
+         & "pressures, harmonics of the drive torque")
+      if (.not. keys%are_wanted()) return
+      allocate (case%engine)
+      call keys%whole_number("cylinders", one_or_more, "number of cylinders, which fire at equal distances", &
+         & case%engine%cylinders, example="4")
+      ! From a moped's cylinder to a truck's engine of six
+      call keys%number("displacement_cm3", positive, "volume displaced by all cylinders", case%engine%displacement, &
+         & example="1998", usual=[40.0_wp, 2.0e4_wp])
+      call keys%whole_number("strokes", from_to(2.0_wp, 4.0_wp), "strokes of a working cycle: 2 or 4", case%engine%strokes)
+      call keys%whole_numbers("firing_order", one_or_more, "cylinders in the order in which they fire", case%engine%firing_order, &
+         & example="1, 3, 4, 2")
+      call keys%choice("given_speed", speed_names, "whose speed operating_point.speed_rpm is")
+      call keys%whole_number("camshafts", from_to(1.0_wp, 2.0_wp), "camshafts: with 2, each has all the cams of "// &
+         & "cam_bearings.cam_positions_mm, the first one with the lobe shape of &lift, the second one with that of &second_lift", &
+         & case%engine%camshafts)
+      call keys%numbers("full_lift_deg", from_to(-720.0_wp, 720.0_wp), &
          & "crank angle from the firing dead centre of a cylinder to full lift of its valves, for each lobe shape", &
-         & example="470, 250")
-   end subroutine add_engine_keys
+         & case%engine%full_lift, example="470, 250")
+   end subroutine bind_engine
 
    !> Strokes of a working cycle.
    function strokes_of(settings) result(strokes)
@@ -135,8 +141,8 @@ contains
 
    end subroutine check_engine
 
-   !> The engine of a case whose camshaft is there: speed of the camshaft, and all cams of all camshafts.
-   subroutine fill_engine(settings, case)
+   !> Speed of the camshaft by that of the engine, and all cams of all camshafts.
+   subroutine place_cams(settings, case)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> The case
@@ -144,14 +150,6 @@ contains
 
       integer :: i
 
-      if (.not. has_group(settings, group)) return
-      allocate (case%engine)
-      call take(settings, group, "cylinders", case%engine%cylinders)
-      call take(settings, group, "displacement_cm3", case%engine%displacement)
-      call take(settings, group, "strokes", case%engine%strokes)
-      call take(settings, group, "camshafts", case%engine%camshafts)
-      call take(settings, group, "firing_order", case%engine%firing_order)
-      call take(settings, group, "full_lift_deg", case%engine%full_lift)
       call take(settings, bearings, "cam_cylinders", case%engine%cam_cylinders)
       if (get_word(settings, group, "given_speed") == speed_names(1)) then
          case%operating_point%speed = case%operating_point%speed/cam_turns(case%engine)
@@ -166,6 +164,6 @@ contains
          end if
          cams%cam_phases = cam_phases_of(case%engine, cams%cam_lobes)
       end associate
-   end subroutine fill_engine
+   end subroutine place_cams
 
 end module camroller_deck_engine

@@ -1,75 +1,57 @@
 !> Decks: heat in the contact of cam and roller.
 !>
-!> In: schema, settings. Out: group and keys, the component of a case, and the rules that tie its keys to others.
+!> In: keys, settings. Out: the group, the component of a case, and the rules that tie its keys to others.
 module camroller_deck_heat
    use camroller_case, only : case_t
+   use camroller_deck_binder, only : keys_t
    use camroller_deck_complaint, only : complain, complain_about_group
-   use camroller_deck_schema, only : schema_t, add_group, add_name, add_number, group_effect, not_negative, positive
-   use camroller_heat, only : heat_t, contact_heat_names, inlet_law_names
+   use camroller_deck_schema, only : group_effect, positive, not_negative
+   use camroller_heat, only : contact_heat_names, inlet_law_names
+   use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
-   use camroller_settings, only : settings_t, get_word, has_group, is_known, is_wrong, take
+   use camroller_settings, only : settings_t, get_word, has_group, is_known, is_wrong
    implicit none
    private
 
-   public :: add_heat_keys, fill_heat, check_heat
+   public :: bind_heat, check_heat
 
    character(len=*), parameter :: group = "heat", fall_key = "viscosity_fall_per_K"
 
 contains
 
-   !> Group and keys.
-   subroutine add_heat_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(heat_t) :: standard
-
-      call add_group(schema, "heat", group_effect, "heat that thins the film at its inlet and the oil within the contact")
-      call add_name(schema, "inlet_law", inlet_law_names, standard%inlet_law, "factor on the film by shear heating of its inlet")
-      call add_name(schema, "contact", contact_heat_names, standard%contact, &
-         & "temperature that the film is sheared at: that of the oil, or the mean over the contact with the heat of friction")
-      call add_number(schema, "oil_conductivity_W_m_K", positive, "thermal conductivity of the oil", &
-         & default=standard%oil_conductivity)
-      call add_number(schema, "oil_heat_capacity_J_kg_K", positive, "heat capacity of the oil", &
-         & default=standard%oil_heat_capacity)
-      call add_number(schema, "viscosity_fall_per_K", positive, &
-         & "fall of ln(viscosity) per kelvin; for lubricant temperature_law 'direct' alone", is_optional=.true.)
-      call add_number(schema, "limit_fall_per_K", not_negative, "fall of ln(limiting traction coefficient) per kelvin", &
-         & default=standard%limit_fall)
-      call add_number(schema, "cam_conductivity_W_m_K", positive, "thermal conductivity of the cam", &
-         & default=standard%conductivity(1))
-      call add_number(schema, "cam_density_kg_m3", positive, "density of the cam", default=standard%density(1))
-      call add_number(schema, "cam_heat_capacity_J_kg_K", positive, "heat capacity of the cam", &
-         & default=standard%heat_capacity(1))
-      call add_number(schema, "roller_conductivity_W_m_K", positive, "thermal conductivity of the roller", &
-         & default=standard%conductivity(2))
-      call add_number(schema, "roller_density_kg_m3", positive, "density of the roller", default=standard%density(2))
-      call add_number(schema, "roller_heat_capacity_J_kg_K", positive, "heat capacity of the roller", &
-         & default=standard%heat_capacity(2))
-   end subroutine add_heat_keys
-
-   !> Fill the component of a case.
-   subroutine fill_heat(settings, case)
-      !> The settings
-      type(settings_t), intent(in) :: settings
+   !> Group and keys, and the component of a case.
+   subroutine bind_heat(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (.not. has_group(settings, group)) return
+      call keys%group(group, group_effect, "heat that thins the film at its inlet and the oil within the contact")
+      if (.not. keys%are_wanted()) return
       allocate (case%heat)
-      call take(settings, group, "inlet_law", case%heat%inlet_law)
-      call take(settings, group, "contact", case%heat%contact)
-      call take(settings, group, "oil_conductivity_W_m_K", case%heat%oil_conductivity)
-      call take(settings, group, "oil_heat_capacity_J_kg_K", case%heat%oil_heat_capacity)
-      call take(settings, group, "viscosity_fall_per_K", case%heat%viscosity_fall)
-      call take(settings, group, "limit_fall_per_K", case%heat%limit_fall)
-      call take(settings, "heat", "cam_conductivity_W_m_K", case%heat%conductivity(1))
-      call take(settings, "heat", "cam_density_kg_m3", case%heat%density(1))
-      call take(settings, "heat", "cam_heat_capacity_J_kg_K", case%heat%heat_capacity(1))
-      call take(settings, "heat", "roller_conductivity_W_m_K", case%heat%conductivity(2))
-      call take(settings, "heat", "roller_density_kg_m3", case%heat%density(2))
-      call take(settings, "heat", "roller_heat_capacity_J_kg_K", case%heat%heat_capacity(2))
-   end subroutine fill_heat
+      call keys%choice("inlet_law", inlet_law_names, "factor on the film by shear heating of its inlet", case%heat%inlet_law)
+      call keys%choice("contact", contact_heat_names, "temperature that the film is sheared at: that of the oil, or the mean "// &
+         & "over the contact with the heat of friction", case%heat%contact)
+      call keys%number("oil_conductivity_W_m_K", positive, "thermal conductivity of the oil", case%heat%oil_conductivity, &
+         & usual=[0.05_wp, 0.5_wp])
+      call keys%number("oil_heat_capacity_J_kg_K", positive, "heat capacity of the oil", case%heat%oil_heat_capacity, &
+         & usual=[1500.0_wp, 2700.0_wp])
+      call keys%number("viscosity_fall_per_K", positive, "fall of ln(viscosity) per kelvin; for lubricant temperature_law "// &
+         & "'direct' alone", case%heat%viscosity_fall, is_optional=.true., usual=[0.01_wp, 0.12_wp])
+      call keys%number("limit_fall_per_K", not_negative, "fall of ln(limiting traction coefficient) per kelvin", &
+         & case%heat%limit_fall, usual=[0.0_wp, 0.02_wp])
+      call keys%number("cam_conductivity_W_m_K", positive, "thermal conductivity of the cam", case%heat%conductivity(1), &
+         & usual=[1.0_wp, 200.0_wp])
+      call keys%number("cam_density_kg_m3", positive, "density of the cam", case%heat%density(1), usual=[2000.0_wp, 9000.0_wp])
+      call keys%number("cam_heat_capacity_J_kg_K", positive, "heat capacity of the cam", case%heat%heat_capacity(1), &
+         & usual=[300.0_wp, 1000.0_wp])
+      call keys%number("roller_conductivity_W_m_K", positive, "thermal conductivity of the roller", case%heat%conductivity(2), &
+         & usual=[1.0_wp, 200.0_wp])
+      call keys%number("roller_density_kg_m3", positive, "density of the roller", case%heat%density(2), &
+         & usual=[2000.0_wp, 9000.0_wp])
+      call keys%number("roller_heat_capacity_J_kg_K", positive, "heat capacity of the roller", case%heat%heat_capacity(2), &
+         & usual=[300.0_wp, 1000.0_wp])
+   end subroutine bind_heat
 
    !> Rule: one law of the viscosity over the temperature.
    subroutine check_heat(settings, mistakes)

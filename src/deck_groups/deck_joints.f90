@@ -1,21 +1,20 @@
 !> Decks: the sliding joints of the train, at the valve's tip, in seal and guide, and at the pivot; oil in the roller's bearing.
 !>
-!> In: schema, settings. Out: their groups and keys, the components of a case, and the rules that tie their keys together.
+!> In: keys, settings. Out: their groups, the components of a case, and the rules that tie their keys together.
 module camroller_deck_joints
    use camroller_case, only : case_t, energy_names, energy_source
+   use camroller_deck_binder, only : keys_t
    use camroller_deck_complaint, only : complain, complain_about_group
-   use camroller_deck_schema, only : schema_t, add_group, add_name, add_number, group_effect, not_negative, positive, &
-      & proper_fraction
+   use camroller_deck_schema, only : group_effect, positive, not_negative, proper_fraction
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
-   use camroller_needle_drag, only : needle_drag_t
    use camroller_settings, only : settings_t, get_word, has_group, is_known, is_wrong, take
    use camroller_sliding_friction, only : sliding_t, sliding_law_names
-   use camroller_stem_friction, only : stem_seal_t, seal_drag_names
+   use camroller_stem_friction, only : seal_drag_names
    implicit none
    private
 
-   public :: add_joint_keys, fill_joints, check_joints
+   public :: bind_joints, check_joints
 
    !> Groups of joints; the first three have a coefficient of friction
    character(len=*), parameter :: groups(*) = [character(len=15) :: "valve_tip", "guide_side_load", "finger_pivot", "stem_seal", &
@@ -29,122 +28,108 @@ module camroller_deck_joints
 
 contains
 
-   !> Groups and keys.
-   subroutine add_joint_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(stem_seal_t) :: seal
-      type(needle_drag_t) :: drag
-
-      call add_group(schema, "valve_tip", group_effect, "friction of the finger's pad on the valve's tip")
-      call add_number(schema, "pad_radius_mm", positive, "radius of the pad, which is an arc about the end of the pad arm", &
-         & example="8")
-      call add_sliding_keys(schema)
-      call add_group(schema, "stem_seal", group_effect, "seal on the valve's stem")
-      call add_number(schema, "lip_force_N", not_negative, "friction of the lip", example="8")
-      call add_number(schema, "viscous_drag_N_s_m", not_negative, "drag per speed of the valve", default=seal%viscous_drag)
-      call add_name(schema, "drag_follows", seal_drag_names, seal%drag_follows, &
-         & "whether the drag changes with the oil's viscosity or is constant")
-      call add_number(schema, "reference_viscosity_Pa_s", positive, "viscosity that the drag is given for", is_optional=.true.)
-      call add_number(schema, "reversal_speed_m_s", not_negative, &
-         & "speed of the valve over which the lip's friction reverses; 0, in a rigid train: it jumps", default=seal%reversal_speed)
-      call add_group(schema, "guide_side_load", group_effect, "friction of the stem pressed against the ends of its guide")
-      call add_number(schema, "guide_length_mm", positive, "length of the guide", example="36")
-      call add_number(schema, "tip_height_mm", not_negative, "height of the valve's tip above the guide with the valve closed", &
-         & example="25")
-      call add_number(schema, "stem_axis_mm", positive, "distance of the stem's axis from the pivot, across the axis", &
-         & example="34")
-      call add_sliding_keys(schema)
-      call add_group(schema, "finger_pivot", group_effect, "friction of the finger on the ball of its pivot")
-      call add_number(schema, "ball_radius_mm", positive, "radius of the ball", example="5")
-      call add_sliding_keys(schema)
-      call add_group(schema, "needle_drag", group_effect, "drag of the oil in the roller's needle bearing, by Palmgren's formula")
-      call add_number(schema, "pitch_diameter_mm", positive, "diameter of the circle through the middles of the needles", &
-         & example="10.22")
-      call add_number(schema, "viscous_factor", not_negative, "factor of bearing type and lubrication, f_0", default=drag%factor)
-      call add_number(schema, "reversal_ratio", proper_fraction, &
-         & "fraction of the cam's speed within which the torque changes its sign smoothly", default=drag%reversal_ratio)
-   end subroutine add_joint_keys
-
-   !> Keys of a coefficient of friction.
-   subroutine add_sliding_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(sliding_t) :: standard
-
-      call add_name(schema, "law", sliding_law_names, standard%law, &
-         & "coefficient of friction: constant, or by Stribeck's curve over viscosity times speed over force")
-      call add_number(schema, "friction_coefficient", not_negative, "coefficient; of law 'stribeck' that at standstill", &
-         & example="0.1")
-      call add_number(schema, "decay_speed_m_s", positive, "sliding speed at which that has fallen to 1/e, at reference "// &
-         & "viscosity and load", is_optional=.true.)
-      call add_number(schema, "viscous_part_s_m", not_negative, "viscous part of the coefficient per sliding speed, at "// &
-         & "reference viscosity and load; 0 leaves the friction of the film out", default=standard%viscous_part)
-      call add_number(schema, "reference_viscosity_Pa_s", positive, "reference viscosity", is_optional=.true.)
-      call add_number(schema, "reference_load_N", positive, "reference force", is_optional=.true.)
-      call add_number(schema, "reversal_speed_m_s", not_negative, &
-         & "sliding speed over which friction reverses; 0, in a rigid train: it jumps", default=standard%reversal_speed)
-   end subroutine add_sliding_keys
-
-   !> Fill the components of a case.
-   subroutine fill_joints(settings, case)
-      !> The settings
-      type(settings_t), intent(in) :: settings
+   !> Groups and keys, and the components of a case.
+   subroutine bind_joints(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (has_group(settings, "valve_tip")) then
+      call keys%group("valve_guide", group_effect, "valve stem in its guide")
+      if (keys%are_wanted()) then
+         allocate (case%valve_guide)
+         call keys%number("length_mm", positive, "length of the guide", case%valve_guide%length, example="36", &
+            & usual=[10.0_wp, 150.0_wp])
+         call keys%number("stem_diameter_mm", positive, "diameter of the valve stem", case%valve_guide%stem_diameter, example="5", &
+            & usual=[3.0_wp, 20.0_wp])
+         call keys%number("radial_clearance_um", positive, "radial clearance", case%valve_guide%radial_clearance, example="20", &
+            & usual=[3.0_wp, 100.0_wp])
+      end if
+      call keys%group("valve_tip", group_effect, "friction of the finger's pad on the valve's tip")
+      if (keys%are_wanted()) then
          allocate (case%valve_tip)
-         call take(settings, "valve_tip", "pad_radius_mm", case%valve_tip%pad_radius)
-         call fill_sliding(settings, "valve_tip", case%valve_tip%sliding)
+         call keys%number("pad_radius_mm", positive, "radius of the pad, which is an arc about the end of the pad arm", &
+            & case%valve_tip%pad_radius, example="8", usual=[3.0_wp, 60.0_wp])
+         call bind_sliding(keys, case%valve_tip%sliding)
       end if
-      if (has_group(settings, "stem_seal")) then
-         allocate (case%stem_seal)
-         call take(settings, "stem_seal", "lip_force_N", case%stem_seal%lip_force)
-         call take(settings, "stem_seal", "viscous_drag_N_s_m", case%stem_seal%viscous_drag)
-         call take(settings, "stem_seal", "drag_follows", case%stem_seal%drag_follows)
-         call take(settings, "stem_seal", "reference_viscosity_Pa_s", case%stem_seal%reference_viscosity)
-         call take(settings, "stem_seal", "reversal_speed_m_s", case%stem_seal%reversal_speed)
-      end if
-      if (has_group(settings, "guide_side_load")) then
-         allocate (case%guide_side_load)
-         call take(settings, "guide_side_load", "guide_length_mm", case%guide_side_load%guide_length)
-         call take(settings, "guide_side_load", "tip_height_mm", case%guide_side_load%tip_height)
-         call take(settings, "guide_side_load", "stem_axis_mm", case%guide_side_load%stem_axis)
-         call fill_sliding(settings, "guide_side_load", case%guide_side_load%sliding)
-      end if
-      if (has_group(settings, "finger_pivot")) then
+      call bind_stem(keys, case)
+      call keys%group("finger_pivot", group_effect, "friction of the finger on the ball of its pivot")
+      if (keys%are_wanted()) then
          allocate (case%finger_pivot)
-         call take(settings, "finger_pivot", "ball_radius_mm", case%finger_pivot%ball_radius)
-         call fill_sliding(settings, "finger_pivot", case%finger_pivot%sliding)
+         call keys%number("ball_radius_mm", positive, "radius of the ball", case%finger_pivot%ball_radius, example="5", &
+            & usual=[2.0_wp, 15.0_wp])
+         call bind_sliding(keys, case%finger_pivot%sliding)
       end if
-      if (has_group(settings, "needle_drag")) then
+      call keys%group("needle_drag", group_effect, "drag of the oil in the roller's needle bearing, by Palmgren's formula")
+      if (keys%are_wanted()) then
          allocate (case%needle_drag)
-         call take(settings, "needle_drag", "pitch_diameter_mm", case%needle_drag%pitch_diameter)
-         call take(settings, "needle_drag", "viscous_factor", case%needle_drag%factor)
-         call take(settings, "needle_drag", "reversal_ratio", case%needle_drag%reversal_ratio)
+         call keys%number("pitch_diameter_mm", positive, "diameter of the circle through the middles of the needles", &
+            & case%needle_drag%pitch_diameter, example="10.22", usual=[4.0_wp, 50.0_wp])
+         call keys%number("viscous_factor", not_negative, "factor of bearing type and lubrication, f_0", case%needle_drag%factor, &
+            & usual=[1.0_wp, 30.0_wp])
+         call keys%number("reversal_ratio", proper_fraction, &
+            & "fraction of the cam's speed within which the torque changes its sign smoothly", case%needle_drag%reversal_ratio)
       end if
-   end subroutine fill_joints
+   end subroutine bind_joints
 
-   !> Fill a coefficient of friction.
-   subroutine fill_sliding(settings, group, sliding)
-      !> The settings
-      type(settings_t), intent(in) :: settings
-      !> Group of the joint
-      character(len=*), intent(in) :: group
+   !> Friction of the valve's stem at its seal and at the ends of its guide.
+   subroutine bind_stem(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
+      !> The case
+      type(case_t), intent(inout) :: case
+
+      call keys%group("stem_seal", group_effect, "seal on the valve's stem")
+      if (keys%are_wanted()) then
+         allocate (case%stem_seal)
+         call keys%number("lip_force_N", not_negative, "friction of the lip", case%stem_seal%lip_force, example="8", &
+            & usual=[0.0_wp, 40.0_wp])
+         call keys%number("viscous_drag_N_s_m", not_negative, "drag per speed of the valve", case%stem_seal%viscous_drag, &
+            & usual=[0.0_wp, 100.0_wp])
+         call keys%choice("drag_follows", seal_drag_names, "whether the drag changes with the oil's viscosity or is constant", &
+            & case%stem_seal%drag_follows)
+         call keys%number("reference_viscosity_Pa_s", positive, "viscosity that the drag is given for", &
+            & case%stem_seal%reference_viscosity, is_optional=.true., usual=[1.0e-3_wp, 2.0_wp])
+         call keys%number("reversal_speed_m_s", not_negative, &
+            & "speed of the valve over which the lip's friction reverses; 0, in a rigid train: it jumps", &
+            & case%stem_seal%reversal_speed)
+      end if
+      call keys%group("guide_side_load", group_effect, "friction of the stem pressed against the ends of its guide")
+      if (keys%are_wanted()) then
+         allocate (case%guide_side_load)
+         call keys%number("guide_length_mm", positive, "length of the guide", case%guide_side_load%guide_length, example="36", &
+            & usual=[10.0_wp, 150.0_wp])
+         call keys%number("tip_height_mm", not_negative, "height of the valve's tip above the guide with the valve closed", &
+            & case%guide_side_load%tip_height, example="25", usual=[5.0_wp, 100.0_wp])
+         call keys%number("stem_axis_mm", positive, "distance of the stem's axis from the pivot, across the axis", &
+            & case%guide_side_load%stem_axis, example="34", usual=[15.0_wp, 120.0_wp])
+         call bind_sliding(keys, case%guide_side_load%sliding)
+      end if
+   end subroutine bind_stem
+
+   !> Keys of a coefficient of friction, and the coefficient.
+   subroutine bind_sliding(keys, sliding)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
       !> The coefficient
       type(sliding_t), intent(inout) :: sliding
 
-      call take(settings, group, "law", sliding%law)
-      call take(settings, group, "friction_coefficient", sliding%friction_coefficient)
-      call take(settings, group, "decay_speed_m_s", sliding%decay_speed)
-      call take(settings, group, "viscous_part_s_m", sliding%viscous_part)
-      call take(settings, group, "reference_viscosity_Pa_s", sliding%reference_viscosity)
-      call take(settings, group, "reference_load_N", sliding%reference_load)
-      call take(settings, group, "reversal_speed_m_s", sliding%reversal_speed)
-   end subroutine fill_sliding
+      call keys%choice("law", sliding_law_names, "coefficient of friction: constant, or by Stribeck's curve over viscosity "// &
+         & "times speed over force", sliding%law)
+      call keys%number("friction_coefficient", not_negative, "coefficient; of law 'stribeck' that at standstill", &
+         & sliding%friction_coefficient, example="0.1", usual=[0.0_wp, 0.3_wp])
+      ! What friction of joints is measured with: oils from hot to cold, forces from closed valves to racing springs
+      call keys%number("decay_speed_m_s", positive, "sliding speed at which that has fallen to 1/e, at reference viscosity and "// &
+         & "load", sliding%decay_speed, is_optional=.true., usual=[1.0e-3_wp, 10.0_wp])
+      call keys%number("viscous_part_s_m", not_negative, "viscous part of the coefficient per sliding speed, at reference "// &
+         & "viscosity and load; 0 leaves the friction of the film out", sliding%viscous_part)
+      call keys%number("reference_viscosity_Pa_s", positive, "reference viscosity", sliding%reference_viscosity, &
+         & is_optional=.true., usual=[1.0e-3_wp, 2.0_wp])
+      call keys%number("reference_load_N", positive, "reference force", sliding%reference_load, is_optional=.true., &
+         & usual=[1.0_wp, 5000.0_wp])
+      call keys%number("reversal_speed_m_s", not_negative, "sliding speed over which friction reverses; 0, in a rigid train: "// &
+         & "it jumps", sliding%reversal_speed)
+   end subroutine bind_sliding
 
    !> Rules: what a law needs, and what a joint needs of the case.
    subroutine check_joints(settings, mistakes)

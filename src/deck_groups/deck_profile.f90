@@ -1,20 +1,20 @@
 !> Decks: the roller along its axis.
 !>
-!> In: schema, settings. Out: group and keys, the component of a case, and the rules that tie its keys to others.
+!> In: keys, settings. Out: the group, the component of a case, and the rules that tie its keys to others.
 module camroller_deck_profile
    use camroller_case, only : case_t
+   use camroller_deck_binder, only : keys_t
    use camroller_deck_complaint, only : complain_about_group, demand
-   use camroller_deck_schema, only : schema_t, add_group, add_integer, add_logical, add_name, add_number, group_effect, &
-      & not_negative, positive, range_t
+   use camroller_deck_schema, only : group_effect, positive, not_negative, range_t
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
-   use camroller_roller_profile, only : roller_profile_t, coupling_names, fewest_slices, most_slices, profile_crowned, &
-      & profile_logarithmic, profile_names
-   use camroller_settings, only : settings_t, get_word, has_group, take
+   use camroller_roller_profile, only : coupling_names, fewest_slices, most_slices, profile_crowned, profile_logarithmic, &
+      & profile_names
+   use camroller_settings, only : settings_t, get_word, has_group
    implicit none
    private
 
-   public :: add_profile_keys, fill_profile, check_profile
+   public :: bind_profile, check_profile
 
    character(len=*), parameter :: group = "roller_profile"
    !> Largest tilt: about one degree, far above what a roller and its finger allow [mrad]
@@ -22,51 +22,36 @@ module camroller_deck_profile
 
 contains
 
-   !> Group and keys.
-   subroutine add_profile_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(roller_profile_t) :: standard
-
-      call add_group(schema, "roller_profile", group_effect, &
-         & "shape and tilt of the roller along its axis, and the load along it that follows")
-      call add_name(schema, "profile", profile_names, standard%profile, "shape along the axis: a cylinder, an arc, a logarithm")
-      call add_number(schema, "crown_radius_mm", positive, "radius of a crowned roller along its axis", is_optional=.true., &
-         & example="3000")
-      call add_number(schema, "design_load_N", positive, "load at which a logarithmic roller has the same load all along it", &
-         & is_optional=.true., example="800")
-      call add_number(schema, "end_drop_um", not_negative, "drop of a logarithmic roller at its very ends, which acts up to "// &
-         & "some times 2 design_load/(pi E' contact_width); 0: as the logarithm has it, without limit", default=standard%end_drop)
-      call add_number(schema, "tilt_mrad", range_t(-largest_tilt, largest_tilt), "angle between roller and cam in the plane of "// &
-         & "length and normal; positive presses the end at positive places", default=standard%tilt)
-      call add_name(schema, "coupling", coupling_names, standard%coupling, &
-         & "do slices press each other's place down, as on an elastic half space, or has each a line contact of its own?")
-      call add_integer(schema, "slices", range_t(real(fewest_slices, wp), real(most_slices, wp)), "slices along the roller", &
-         & default=standard%slices)
-      call add_logical(schema, "slice_series", standard%slice_series, "are there series of the load of each slice?")
-   end subroutine add_profile_keys
-
-   !> Fill the component of a case.
-   subroutine fill_profile(settings, case)
-      !> The settings
-      type(settings_t), intent(in) :: settings
+   !> Group and keys, and the component of a case.
+   subroutine bind_profile(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (.not. has_group(settings, group)) return
+      call keys%group(group, group_effect, "shape and tilt of the roller along its axis, and the load along it that "// &
+         & "follows")
+      if (.not. keys%are_wanted()) return
       allocate (case%roller_profile)
       associate (profile => case%roller_profile)
-         call take(settings, "roller_profile", "profile", profile%profile)
-         call take(settings, "roller_profile", "crown_radius_mm", profile%crown_radius)
-         call take(settings, "roller_profile", "design_load_N", profile%design_load)
-         call take(settings, "roller_profile", "end_drop_um", profile%end_drop)
-         call take(settings, "roller_profile", "tilt_mrad", profile%tilt)
-         call take(settings, "roller_profile", "coupling", profile%coupling)
-         call take(settings, "roller_profile", "slices", profile%slices)
-         call take(settings, "roller_profile", "slice_series", profile%slice_series)
+         call keys%choice("profile", profile_names, "shape along the axis: a cylinder, an arc, a logarithm", profile%profile)
+         call keys%number("crown_radius_mm", positive, "radius of a crowned roller along its axis", profile%crown_radius, &
+            & example="3000", is_optional=.true., usual=[100.0_wp, 1.0e5_wp])
+         call keys%number("design_load_N", positive, "load at which a logarithmic roller has the same load all along it", &
+            & profile%design_load, example="800", is_optional=.true., usual=[10.0_wp, 1.0e4_wp])
+         call keys%number("end_drop_um", not_negative, "drop of a logarithmic roller at its very ends, which acts up to some "// &
+            & "times 2 design_load/(pi E' contact_width); 0: as the logarithm has it, without limit", profile%end_drop, &
+            & usual=[0.0_wp, 20.0_wp])
+         call keys%number("tilt_mrad", range_t(-largest_tilt, largest_tilt), &
+            & "angle between roller and cam in the plane of length and normal; positive presses the end at positive places", &
+            & profile%tilt, usual=[-5.0_wp, 5.0_wp])
+         call keys%choice("coupling", coupling_names, "do slices press each other's place down, as on an elastic half space, "// &
+            & "or has each a line contact of its own?", profile%coupling)
+         call keys%whole_number("slices", range_t(real(fewest_slices, wp), real(most_slices, wp)), "slices along the roller", &
+            & profile%slices)
+         call keys%yes_or_no("slice_series", "are there series of the load of each slice?", profile%slice_series)
       end associate
-   end subroutine fill_profile
+   end subroutine bind_profile
 
    !> Rules: a shape has its number, and the film is that of a formula.
    subroutine check_profile(settings, mistakes)

@@ -1,102 +1,75 @@
 !> Decks: the bearing between roller and pin.
 !>
-!> In: schema, settings. Out: group and keys, the component of a case, and the rules that tie its keys to others.
+!> In: keys, settings. Out: the group, the component of a case, and the rules that tie its keys to others.
 module camroller_deck_roller_bearing
    use camroller_bearing_asperity, only : clearance_advice, clearance_is_enough
    use camroller_case, only : case_t
+   use camroller_deck_binder, only : keys_t
    use camroller_deck_complaint, only : complain, demand
-   use camroller_deck_schema, only : schema_t, add_group, add_name, add_number, group_effect, not_negative, positive, &
-      & proper_fraction
+   use camroller_deck_schema, only : group_effect, positive, not_negative, proper_fraction
    use camroller_journal, only : law_covers_width, width_advice
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
-   use camroller_needle, only : needle_bearing_t, has_needles, kind_journal, kind_skf, roller_bearing_names
+   use camroller_needle, only : has_needles, kind_journal, kind_skf, roller_bearing_names
    use camroller_pin_film, only : pin_law_names
    use camroller_settings, only : settings_t, get_word, has_group, is_known, is_wrong, take
    implicit none
    private
 
-   public :: add_roller_bearing_keys, fill_roller_bearing, check_roller_bearing
+   public :: bind_roller_bearing, check_roller_bearing
 
    character(len=*), parameter :: group = "needle_bearing"
 
 contains
 
-   !> Group and keys.
-   subroutine add_roller_bearing_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(needle_bearing_t) :: standard
-
-      call add_group(schema, group, group_effect, "bearing between roller and pin")
-      call add_name(schema, "kind", roller_bearing_names, standard%kind, &
-         & "needle bearing with a constant coefficient or by SKF's model, plain pin with a constant coefficient, or plain "// &
-         & "pin with an oil film and asperities, a journal bearing")
-      call add_number(schema, "friction_coefficient", not_negative, &
-         & "friction coefficient; kind 'journal': of touching asperities; kind 'needles_skf': mu_bl, of sliding without a film", &
-         & example="0.0015")
-      call add_number(schema, "needle_radius_mm", positive, "radius of a needle", example="0.99", &
-         & is_optional=.true.)
-      call add_number(schema, "reversal_ratio", proper_fraction, &
-         & "fraction of the cam's speed within which the bearing torque changes its sign smoothly", default=standard%reversal_ratio)
-      call add_number(schema, "skf_rolling_factor", positive, &
-         & "R_1 of the bearing's kind, of its rolling torque, in SKF's units; of cylindrical rollers about 1.0e-6 to 1.5e-6 "// &
-         & "with a cage, 2.1e-6 without", is_optional=.true.)
-      call add_number(schema, "skf_sliding_factor", positive, &
-         & "S_2 of the bearing's kind, of its sliding torque by radial load, in SKF's units; of cylindrical rollers about "// &
-         & "0.0015", is_optional=.true.)
-      call add_number(schema, "skf_geometry_factor", positive, &
-         & "K_Z of the bearing's kind, of the oil's return; of cylindrical rollers about 5 with a cage, 6 without", &
-         & is_optional=.true.)
-      call add_number(schema, "skf_replenishment_factor", not_negative, &
-         & "K_rs of the lubrication: 3e-8 for an oil jet or a low bath, 6e-8 for grease or oil-air", &
-         & default=standard%skf%replenishment)
-      call add_number(schema, "skf_film_coefficient", not_negative, "mu_EHL, friction coefficient of sliding under a whole film", &
-         & default=standard%skf%film_coefficient)
-      call add_name(schema, "pin_law", pin_law_names, standard%film%law, "law of the pin's film")
-      call add_number(schema, "pin_width_mm", positive, "width of roller and pin where they face each other", &
-         & is_optional=.true.)
-      call add_number(schema, "pin_radial_clearance_um", positive, "radial clearance of the roller on its pin", &
-         & is_optional=.true.)
-      call add_number(schema, "pin_roughness_um", positive, "root mean square roughness of roller bore and pin together", &
-         & is_optional=.true.)
-      call add_number(schema, "pin_modulus_GPa", positive, "E' of roller and pin, 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2]", &
-         & is_optional=.true.)
-      call add_number(schema, "pin_roughness_product", positive, "asperity density times tip radius times roughness", &
-         & default=standard%film%roughness_product)
-      call add_number(schema, "pin_roughness_over_tip_radius", positive, "ratio of roughness to tip radius", &
-         & default=standard%film%roughness_over_tip_radius)
-   end subroutine add_roller_bearing_keys
-
-   !> Fill the component of a case.
-   subroutine fill_roller_bearing(settings, case)
-      !> The settings
-      type(settings_t), intent(in) :: settings
+   !> Group and keys, and the component of a case.
+   subroutine bind_roller_bearing(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (.not. has_group(settings, group)) return
+      call keys%group(group, group_effect, "bearing between roller and pin")
+      if (.not. keys%are_wanted()) return
       allocate (case%needle_bearing)
       associate (bearing => case%needle_bearing)
-         call take(settings, group, "kind", bearing%kind)
-         call take(settings, group, "friction_coefficient", bearing%friction_coefficient)
-         call take(settings, group, "needle_radius_mm", bearing%needle_radius)
-         call take(settings, group, "reversal_ratio", bearing%reversal_ratio)
-         call take(settings, group, "skf_rolling_factor", bearing%skf%rolling)
-         call take(settings, group, "skf_sliding_factor", bearing%skf%sliding)
-         call take(settings, group, "skf_geometry_factor", bearing%skf%geometry)
-         call take(settings, group, "skf_replenishment_factor", bearing%skf%replenishment)
-         call take(settings, group, "skf_film_coefficient", bearing%skf%film_coefficient)
-         call take(settings, group, "pin_law", bearing%film%law)
-         call take(settings, group, "pin_width_mm", bearing%film%width)
-         call take(settings, group, "pin_radial_clearance_um", bearing%film%radial_clearance)
-         call take(settings, group, "pin_roughness_um", bearing%film%roughness)
-         call take(settings, group, "pin_modulus_GPa", bearing%film%modulus)
-         call take(settings, group, "pin_roughness_product", bearing%film%roughness_product)
-         call take(settings, group, "pin_roughness_over_tip_radius", bearing%film%roughness_over_tip_radius)
+         call keys%choice("kind", roller_bearing_names, "needle bearing with a constant coefficient or by SKF's model, plain "// &
+            & "pin with a constant coefficient, or plain pin with an oil film and asperities, a journal bearing", bearing%kind)
+         call keys%number("friction_coefficient", not_negative, "friction coefficient; kind 'journal': of touching asperities; "// &
+            & "kind 'needles_skf': mu_bl, of sliding without a film", bearing%friction_coefficient, example="0.0015", &
+            & usual=[0.0_wp, 0.3_wp])
+         call keys%number("needle_radius_mm", positive, "radius of a needle", bearing%needle_radius, example="0.99", &
+            & is_optional=.true., usual=[0.3_wp, 5.0_wp])
+         call keys%number("reversal_ratio", proper_fraction, &
+            & "fraction of the cam's speed within which the bearing torque changes its sign smoothly", bearing%reversal_ratio)
+         call keys%number("skf_rolling_factor", positive, "R_1 of the bearing's kind, of its rolling torque, in SKF's units; "// &
+            & "of cylindrical rollers about 1.0e-6 to 1.5e-6 with a cage, 2.1e-6 without", bearing%skf%rolling, &
+            & is_optional=.true., usual=[2.0e-7_wp, 1.0e-5_wp])
+         call keys%number("skf_sliding_factor", positive, "S_2 of the bearing's kind, of its sliding torque by radial load, in "// &
+            & "SKF's units; of cylindrical rollers about 0.0015", bearing%skf%sliding, is_optional=.true., &
+            & usual=[1.0e-4_wp, 0.01_wp])
+         call keys%number("skf_geometry_factor", positive, "K_Z of the bearing's kind, of the oil's return; of cylindrical "// &
+            & "rollers about 5 with a cage, 6 without", bearing%skf%geometry, is_optional=.true., usual=[3.0_wp, 12.0_wp])
+         call keys%number("skf_replenishment_factor", not_negative, &
+            & "K_rs of the lubrication: 3e-8 for an oil jet or a low bath, 6e-8 for grease or oil-air", bearing%skf%replenishment, &
+            & usual=[1.0e-8_wp, 1.0e-7_wp])
+         call keys%number("skf_film_coefficient", not_negative, "mu_EHL, friction coefficient of sliding under a whole film", &
+            & bearing%skf%film_coefficient, usual=[0.001_wp, 0.1_wp])
+         call keys%choice("pin_law", pin_law_names, "law of the pin's film", bearing%film%law)
+         call keys%number("pin_width_mm", positive, "width of roller and pin where they face each other", bearing%film%width, &
+            & is_optional=.true., usual=[2.0_wp, 25.0_wp])
+         call keys%number("pin_radial_clearance_um", positive, "radial clearance of the roller on its pin", &
+            & bearing%film%radial_clearance, is_optional=.true., usual=[5.0_wp, 100.0_wp])
+         call keys%number("pin_roughness_um", positive, "root mean square roughness of roller bore and pin together", &
+            & bearing%film%roughness, is_optional=.true., usual=[0.02_wp, 3.0_wp])
+         call keys%number("pin_modulus_GPa", positive, "E' of roller and pin, 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2]", &
+            & bearing%film%modulus, is_optional=.true., usual=[20.0_wp, 300.0_wp])
+         call keys%number("pin_roughness_product", positive, "asperity density times tip radius times roughness", &
+            & bearing%film%roughness_product, usual=[0.01_wp, 0.15_wp])
+         call keys%number("pin_roughness_over_tip_radius", positive, "ratio of roughness to tip radius", &
+            & bearing%film%roughness_over_tip_radius, usual=[1.0e-5_wp, 0.1_wp])
       end associate
-   end subroutine fill_roller_bearing
+   end subroutine bind_roller_bearing
 
    !> Rules: the ring's wall is thinner than its radius, needles fit between it and a pin, and a bearing whose torque is not in
    !> proportion to its load has what that needs.

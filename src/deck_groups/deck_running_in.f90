@@ -1,18 +1,18 @@
 !> Decks: wear of cam and roller, the film that grows on them, hours of running.
 !>
-!> In: schema, settings. Out: groups and keys, the components of a case, and the rules that tie them to each other.
+!> In: keys, settings. Out: the groups, the components of a case, and the rules that tie them to each other.
 module camroller_deck_running_in
    use camroller_case, only : case_t
+   use camroller_deck_binder, only : keys_t
    use camroller_deck_complaint, only : complain_about_group
-   use camroller_deck_schema, only : schema_t, add_group, add_integer, add_number, group_effect, not_negative, positive, range_t
+   use camroller_deck_schema, only : group_effect, positive, not_negative, range_t
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
-   use camroller_settings, only : settings_t, has_group, take
-   use camroller_tribofilm, only : running_in_t
+   use camroller_settings, only : settings_t, has_group
    implicit none
    private
 
-   public :: add_running_in_keys, fill_running_in, check_running_in
+   public :: bind_running_in, check_running_in
 
    !> Places on the cam: enough to see its flanks, and not so many that a cycle is cheaper than they are [-]
    real(wp), parameter :: fewest_places = 24.0_wp, most_places = 3600.0_wp
@@ -21,70 +21,54 @@ module camroller_deck_running_in
 
 contains
 
-   !> Groups and keys.
-   subroutine add_running_in_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(running_in_t) :: standard
-
-      call add_group(schema, "wear", group_effect, "wear of cam and roller by Archard, and stress below their surfaces")
-      call add_number(schema, "cam_rate_mm3_N_m", not_negative, "specific wear rate of the cam: volume over the load of its "// &
-         & "asperities and the sliding distance", example="1e-9")
-      call add_number(schema, "roller_rate_mm3_N_m", not_negative, "the same of the roller", example="1e-9")
-      call add_group(schema, "tribofilm", group_effect, &
-         & "film that additives of the oil grow on cam and roller over the hours of &running_in")
-      call add_number(schema, "growth_rate_nm_s", not_negative, "growth in contact if there were no barrier to the reaction", &
-         & example="1e7")
-      call add_number(schema, "activation_energy_kJ_mol", not_negative, "barrier of the reaction", example="80")
-      call add_number(schema, "activation_volume_nm3", not_negative, "volume by which shear stress lowers the barrier", &
-         & example="0.1")
-      call add_number(schema, "removal_rate_per_s", not_negative, "rate at which contact removes the film, relative to its "// &
-         & "thickness", example="0.01")
-      call add_number(schema, "largest_thickness_nm", positive, "thickness at which growth ends and the surface is all covered", &
-         & example="120")
-      call add_number(schema, "roughness_ratio", not_negative, "roughness of the film over its thickness", example="0.3")
-      call add_number(schema, "coefficient", not_negative, "friction coefficient of touching asperities that it covers", &
-         & example="0.11")
-      call add_group(schema, "running_in", group_effect, &
-         & "hours of running before the cycle of the result, in which films grow and surfaces wear")
-      call add_number(schema, "duration_h", positive, "how long", example="10")
-      call add_number(schema, "accuracy", range_t(finest, coarsest), "error allowed for thicknesses and depths, relative to "// &
-         & "the largest", default=standard%accuracy)
-      call add_integer(schema, "places", range_t(fewest_places, most_places), "places on the cam, evenly spaced", &
-         & default=standard%places)
-   end subroutine add_running_in_keys
-
-   !> Fill the components of a case.
-   subroutine fill_running_in(settings, case)
-      !> The settings
-      type(settings_t), intent(in) :: settings
+   !> Groups and keys, and the components of a case.
+   subroutine bind_running_in(keys, case)
+      !> The keys
+      type(keys_t), intent(inout) :: keys
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (has_group(settings, "wear")) then
+      call keys%group("wear", group_effect, "wear of cam and roller by Archard, and stress below their surfaces")
+      if (keys%are_wanted()) then
          allocate (case%wear)
-         call take(settings, "wear", "cam_rate_mm3_N_m", case%wear%cam_rate)
-         call take(settings, "wear", "roller_rate_mm3_N_m", case%wear%roller_rate)
+         call keys%number("cam_rate_mm3_N_m", not_negative, "specific wear rate of the cam: volume over the load of its "// &
+            & "asperities and the sliding distance", case%wear%cam_rate, example="1e-9", usual=[0.0_wp, 1.0e-3_wp])
+         call keys%number("roller_rate_mm3_N_m", not_negative, "the same of the roller", case%wear%roller_rate, example="1e-9", &
+            & usual=[0.0_wp, 1.0e-3_wp])
       end if
-      if (has_group(settings, "tribofilm")) then
+      call keys%group("tribofilm", group_effect, "film that additives of the oil grow on cam and roller over the hours of "// &
+         & "&running_in")
+      if (keys%are_wanted()) then
          allocate (case%tribofilm)
          associate (film => case%tribofilm)
-            call take(settings, "tribofilm", "growth_rate_nm_s", film%growth_rate)
-            call take(settings, "tribofilm", "activation_energy_kJ_mol", film%activation_energy)
-            call take(settings, "tribofilm", "activation_volume_nm3", film%activation_volume)
-            call take(settings, "tribofilm", "removal_rate_per_s", film%removal_rate)
-            call take(settings, "tribofilm", "largest_thickness_nm", film%largest_thickness)
-            call take(settings, "tribofilm", "roughness_ratio", film%roughness_ratio)
-            call take(settings, "tribofilm", "coefficient", film%coefficient)
+            call keys%number("growth_rate_nm_s", not_negative, "growth in contact if there were no barrier to the reaction", &
+               & film%growth_rate, example="1e7", usual=[0.0_wp, 1.0e15_wp])
+            call keys%number("activation_energy_kJ_mol", not_negative, "barrier of the reaction", film%activation_energy, &
+               & example="80", usual=[0.0_wp, 250.0_wp])
+            call keys%number("activation_volume_nm3", not_negative, "volume by which shear stress lowers the barrier", &
+               & film%activation_volume, example="0.1", usual=[0.0_wp, 1.0_wp])
+            call keys%number("removal_rate_per_s", not_negative, &
+               & "rate at which contact removes the film, relative to its thickness", film%removal_rate, example="0.01", &
+               & usual=[0.0_wp, 1.0e3_wp])
+            call keys%number("largest_thickness_nm", positive, "thickness at which growth ends and the surface is all covered", &
+               & film%largest_thickness, example="120", usual=[1.0_wp, 1.0e3_wp])
+            call keys%number("roughness_ratio", not_negative, "roughness of the film over its thickness", film%roughness_ratio, &
+               & example="0.3", usual=[0.0_wp, 3.0_wp])
+            call keys%number("coefficient", not_negative, "friction coefficient of touching asperities that it covers", &
+               & film%coefficient, example="0.11", usual=[0.01_wp, 0.5_wp])
          end associate
       end if
-      if (.not. has_group(settings, "running_in")) return
-      allocate (case%running_in)
-      call take(settings, "running_in", "duration_h", case%running_in%duration)
-      call take(settings, "running_in", "accuracy", case%running_in%accuracy)
-      call take(settings, "running_in", "places", case%running_in%places)
-   end subroutine fill_running_in
+      call keys%group("running_in", group_effect, "hours of running before the cycle of the result, in which films grow and "// &
+         & "surfaces wear")
+      if (keys%are_wanted()) then
+         allocate (case%running_in)
+         call keys%number("duration_h", positive, "how long", case%running_in%duration, example="10", usual=[1.0e-3_wp, 1.0e4_wp])
+         call keys%number("accuracy", range_t(finest, coarsest), &
+            & "error allowed for thicknesses and depths, relative to the largest", case%running_in%accuracy)
+         call keys%whole_number("places", range_t(fewest_places, most_places), "places on the cam, evenly spaced", &
+            & case%running_in%places)
+      end if
+   end subroutine bind_running_in
 
    !> Rules: asperities wear, films grow over hours, hours need what changes.
    subroutine check_running_in(settings, mistakes)

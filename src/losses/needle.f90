@@ -13,7 +13,7 @@ module camroller_needle
    private
 
    public :: needle_bearing_t, bearing_part_t, roller_bearing_names, new_bearing_part, friction_radius, bearing_torque, &
-      & bearing_torque_slope, set_bearing_oil, loaded_torque, has_needles, kind_journal, kind_skf
+      & bearing_torque_slope, set_bearing_oil, loaded_torque, has_needles, kind_journal, kind_needles, kind_skf
 
    !> What the roller turns on
    character(len=*), parameter :: roller_bearing_names(*) = [character(len=name_length) :: "needles", "needles_skf", "plain_pin", &

@@ -1,7 +1,7 @@
 !> What a deck may hold: types for groups and keys, and how to find and describe them.
 !>
-!> In: declarations, which `camroller_deck_keys` makes. Out: `schema_t`, the one source for reading, checking, documenting and
-!> echoing decks.
+!> In: declarations, by `camroller_deck_binder` and `camroller_deck_sweep_keys`. Out: `schema_t`, the one source for reading,
+!> checking, documenting and echoing decks.
 module camroller_deck_schema
    use camroller_kinds, only : wp, celsius_zero
    use camroller_names, only : name_length, write_names
@@ -68,7 +68,7 @@ module camroller_deck_schema
       character(len=:), allocatable :: example
       !> Range of a number
       type(range_t) :: range
-      !> Range that an engine's value lies in, where there is one
+      !> Range that an engine's value lies in, where there is one: engines from motorcycles to trucks, from cranking to their limit
       type(range_t) :: usual
       logical :: has_usual = .false.
       !> Allowed names
@@ -156,7 +156,7 @@ contains
    end subroutine add_group
 
    !> Add a key to the last group.
-   subroutine add_key(schema, name, type, meaning, is_optional, example)
+   subroutine add_key(schema, name, type, meaning, is_optional, example, range, usual)
       !> Schema to add to
       type(schema_t), intent(inout) :: schema
       !> Name of the key
@@ -169,6 +169,10 @@ contains
       logical, intent(in) :: is_optional
       !> Value for a deck that shows every key
       character(len=*), intent(in), optional :: example
+      !> Range of a number
+      type(range_t), intent(in), optional :: range
+      !> Ends of the range in which a remark does not ask whether the number is meant [unit of the key]
+      real(wp), intent(in), optional :: usual(2)
 
       type(key_t), allocatable :: keys(:)
 
@@ -189,11 +193,14 @@ contains
          key%is_required = .not. is_optional
          key%unit = unit_of_key(name)
          if (present(example)) key%example = example
+         if (present(range)) key%range = range
+         key%has_usual = present(usual)
+         if (present(usual)) key%usual = range_t(usual(1), usual(2))
       end associate
    end subroutine add_key
 
    !> Add a number.
-   subroutine add_number(schema, name, range, meaning, default, example, is_optional)
+   subroutine add_number(schema, name, range, meaning, default, example, is_optional, usual)
       !> Schema to add to
       type(schema_t), intent(inout) :: schema
       !> Name of the key
@@ -208,9 +215,10 @@ contains
       character(len=*), intent(in), optional :: example
       !> May it be left out without a default?
       logical, intent(in), optional :: is_optional
+      !> Ends of its usual range [unit of the key]
+      real(wp), intent(in), optional :: usual(2)
 
-      call add_key(schema, name, type_number, meaning, present(default) .or. present(is_optional), example)
-      schema%keys(schema%key_count)%range = range
+      call add_key(schema, name, type_number, meaning, present(default) .or. present(is_optional), example, range, usual)
       if (.not. present(default)) return
       associate (key => schema%keys(schema%key_count))
          key%default = ""
@@ -235,8 +243,7 @@ contains
       !> Value for a deck that shows every key
       character(len=*), intent(in), optional :: example
 
-      call add_key(schema, name, type_integer, meaning, present(default) .or. present(is_optional), example)
-      schema%keys(schema%key_count)%range = range
+      call add_key(schema, name, type_integer, meaning, present(default) .or. present(is_optional), example, range)
       if (present(default)) schema%keys(schema%key_count)%default = integer_text(default)
    end subroutine add_integer
 
@@ -294,7 +301,7 @@ contains
    end subroutine add_text
 
    !> Add a list of numbers.
-   subroutine add_numbers(schema, name, range, meaning, example, is_optional)
+   subroutine add_numbers(schema, name, range, meaning, example, is_optional, usual)
       !> Schema to add to
       type(schema_t), intent(inout) :: schema
       !> Name of the key
@@ -307,9 +314,10 @@ contains
       character(len=*), intent(in), optional :: example
       !> May it be left out?
       logical, intent(in), optional :: is_optional
+      !> Ends of the usual range of each [unit of the key]
+      real(wp), intent(in), optional :: usual(2)
 
-      call add_key(schema, name, type_numbers, meaning, present(is_optional), example)
-      schema%keys(schema%key_count)%range = range
+      call add_key(schema, name, type_numbers, meaning, present(is_optional), example, range, usual)
    end subroutine add_numbers
 
    !> Add a list of integers.
@@ -327,8 +335,7 @@ contains
       !> May it be left out?
       logical, intent(in), optional :: is_optional
 
-      call add_key(schema, name, type_integers, meaning, present(is_optional), example)
-      schema%keys(schema%key_count)%range = range
+      call add_key(schema, name, type_integers, meaning, present(is_optional), example, range)
    end subroutine add_integers
 
    !> Add a list of words that are values of another key.

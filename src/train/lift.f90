@@ -17,6 +17,7 @@ module camroller_lift
    private
 
    public :: lift_t, lift_law_t, lift_law_names
+   public :: law_power, law_polydyne, law_345, law_4567, law_cycloidal, law_segments, law_table
    public :: new_lift_law, given_table, evaluate_lift, is_at_rest, is_tabulated, stop_angles, highest_lift, resolving_angles
    public :: event_ends, largest_exponent
 

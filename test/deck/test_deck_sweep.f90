@@ -5,6 +5,8 @@ module test_deck_sweep
    use camroller_error, only : error_t, kind_usage
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, make_sweep_case
+   use camroller_key_uses, only : say_use
+   use camroller_samples, only : sample_names
    use camroller_deck_sweep, only : sweep_size, sweep_position, sweep_numbers, sweep_words
    use deck_samples, only : changed_deck, parse_sample, sample_deck, expect_mistake
    implicit none
@@ -29,7 +31,8 @@ contains
          new_unittest("values are listed for every case", values_are_listed), &
          new_unittest("a number outside of the grid is a usage error", outside_of_grid), &
          new_unittest("mistakes in a sweep are told with their place", sweep_mistakes), &
-         new_unittest("a value that breaks a rule with others is told with its case", broken_rule) &
+         new_unittest("a value that breaks a rule with others is told with its case", broken_rule), &
+         new_unittest("the seed is used with every kind of sample", seed_of_samples) &
          ]
    end subroutine collect_deck_sweep
 
@@ -175,5 +178,18 @@ contains
          & "'wall_thickness_mm' must be below"), 1, &
          & raised%message)
    end subroutine broken_rule
+
+   subroutine seed_of_samples(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: words
+      integer :: i
+
+      call say_use("sweep.seed", words)
+      do i = 1, size(sample_names)
+         call check(error, index(words, "'"//trim(sample_names(i))//"'") > 0, words)
+         if (allocated(error)) return
+      end do
+   end subroutine seed_of_samples
 
 end module test_deck_sweep

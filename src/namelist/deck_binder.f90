@@ -1,0 +1,315 @@
+!> The keys of a deck and the components of a case, bound to each other by one line a key.
+!>
+!> In: a schema that is being made, or settings. Out: each key in the schema, with the value that its variable has as the default;
+!> or each variable with the value of its key. One procedure of a group serves both, and a key is written once:
+!>
+!>     call keys%group("heat", group_effect, "heat that thins the film at its inlet and the oil within the contact")
+!>     if (.not. keys%are_wanted()) return
+!>     allocate (case%heat)
+!>     call keys%number("oil_conductivity_W_m_K", positive, "thermal conductivity of the oil", case%heat%oil_conductivity)
+!>
+!> A key but a list has its variable's value as default, unless it has an example or may be left out. A key without a variable is
+!> taken by other means.
+module camroller_deck_binder
+   use camroller_deck_schema, only : schema_t, range_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
+      & add_numbers, add_integers, group_effect
+   use camroller_kinds, only : wp
+   use camroller_settings, only : settings_t, find_value, group_position
+   implicit none
+   private
+
+   public :: keys_t, declared_in, taken_from
+
+   !> Keys that are declared in a schema, or taken from settings
+   type :: keys_t
+      private
+      !> What they are declared in; null where they are taken
+      type(schema_t), pointer :: schema => null()
+      !> What they are taken from; null where they are declared
+      type(settings_t), pointer :: settings => null()
+      !> Position of their group in the settings; position of the value behind that of the key taken last
+      integer :: section = 0, next = 0
+      !> Is the group wanted?
+      logical :: is_wanted = .true.
+   contains
+      procedure :: group
+      procedure :: are_wanted
+      procedure :: number
+      procedure :: whole_number
+      procedure :: yes_or_no
+      procedure :: choice
+      procedure :: text
+      procedure :: numbers
+      procedure :: whole_numbers
+      procedure, private :: find
+   end type keys_t
+
+contains
+
+   !> Keys to be declared in a schema.
+   function declared_in(schema) result(keys)
+      !> The schema; it stays where it is as long as the keys are used
+      type(schema_t), intent(inout), target :: schema
+      !> The keys
+      type(keys_t) :: keys
+
+      keys%schema => schema
+   end function declared_in
+
+   !> Keys to be taken from settings.
+   function taken_from(settings) result(keys)
+      !> The settings; they stay where they are as long as the keys are used
+      type(settings_t), intent(in), target :: settings
+      !> The keys
+      type(keys_t) :: keys
+
+      keys%settings => settings
+   end function taken_from
+
+   !> Begin a group; the keys that follow belong to it. Groups and keys are taken in the order in which they were declared, so that
+   !> each is nearly always the one behind the last.
+   subroutine group(keys, name, kind, meaning)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the group
+      character(len=*), intent(in) :: name
+      !> Required, standard or effect
+      integer, intent(in) :: kind
+      !> What it holds
+      character(len=*), intent(in) :: meaning
+
+      logical :: is_next
+
+      if (associated(keys%schema)) then
+         call add_group(keys%schema, name, kind, meaning)
+         return
+      end if
+      associate (groups => keys%settings%groups)
+         keys%section = keys%section + 1
+         is_next = keys%section <= size(groups)
+         if (is_next) is_next = groups(keys%section)%name == name
+         if (.not. is_next) keys%section = group_position(keys%settings, name)
+         keys%next = groups(keys%section)%first
+         keys%is_wanted = kind /= group_effect .or. groups(keys%section)%is_present
+      end associate
+   end subroutine group
+
+   !> Are the keys of the present group wanted: declared, or taken where their effect is in the deck?
+   pure function are_wanted(keys) result(verdict)
+      !> The keys
+      class(keys_t), intent(in) :: keys
+      !> Are they?
+      logical :: verdict
+
+      verdict = keys%is_wanted
+   end function are_wanted
+
+   !> Value of a key of the present group.
+   pure subroutine find(keys, name, position)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Position of its value in the settings
+      integer, intent(out) :: position
+
+      logical :: is_next
+
+      associate (settings => keys%settings, section => keys%settings%groups(keys%section))
+         position = keys%next
+         is_next = position <= section%last
+         if (is_next) is_next = settings%values(position)%name == name
+         if (.not. is_next) position = find_value(settings, trim(section%name), name)
+      end associate
+      keys%next = position + 1
+   end subroutine find
+
+   !> A number.
+   subroutine number(keys, name, range, meaning, variable, example, is_optional, usual)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Range of its value
+      type(range_t), intent(in) :: range
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> What gets the value [SI unit]
+      real(wp), intent(inout) :: variable
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+      !> May it be left out without a default?
+      logical, intent(in), optional :: is_optional
+      !> Ends of its usual range [unit of the key]
+      real(wp), intent(in), optional :: usual(2)
+
+      integer :: position
+
+      if (.not. associated(keys%schema)) then
+         call keys%find(name, position)
+         if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%numbers(1)
+      else if (present(example) .or. present(is_optional)) then
+         call add_number(keys%schema, name, range, meaning, example=example, is_optional=is_optional, usual=usual)
+      else
+         call add_number(keys%schema, name, range, meaning, default=variable, usual=usual)
+      end if
+   end subroutine number
+
+   !> A whole number.
+   subroutine whole_number(keys, name, range, meaning, variable, example)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Range of its value
+      type(range_t), intent(in) :: range
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> What gets the value
+      integer, intent(inout) :: variable
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+
+      integer :: position
+
+      if (.not. associated(keys%schema)) then
+         call keys%find(name, position)
+         if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%integers(1)
+      else if (present(example)) then
+         call add_integer(keys%schema, name, range, meaning, example=example)
+      else
+         call add_integer(keys%schema, name, range, meaning, default=variable)
+      end if
+   end subroutine whole_number
+
+   !> A choice of yes and no.
+   subroutine yes_or_no(keys, name, meaning, variable)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> What gets the value
+      logical, intent(inout) :: variable
+
+      integer :: position
+
+      if (associated(keys%schema)) then
+         call add_logical(keys%schema, name, variable, meaning)
+         return
+      end if
+      call keys%find(name, position)
+      if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%flag
+   end subroutine yes_or_no
+
+   !> A choice by name.
+   subroutine choice(keys, name, choices, meaning, variable)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Allowed names; the first is the default of a key without a variable
+      character(len=*), intent(in) :: choices(:)
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> What gets the value
+      character(len=*), intent(inout), optional :: variable
+
+      integer :: position
+
+      if (.not. associated(keys%schema)) then
+         call keys%find(name, position)
+         if (.not. present(variable)) return
+         if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%word
+      else if (present(variable)) then
+         call add_name(keys%schema, name, choices, variable, meaning)
+      else
+         call add_name(keys%schema, name, choices, choices(1), meaning)
+      end if
+   end subroutine choice
+
+   !> A text.
+   subroutine text(keys, name, meaning, variable, example, is_optional)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> What gets the value
+      character(len=:), allocatable, intent(inout), optional :: variable
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+      !> May it be left out without a default?
+      logical, intent(in), optional :: is_optional
+
+      integer :: position
+
+      if (.not. associated(keys%schema)) then
+         call keys%find(name, position)
+         if (.not. present(variable)) return
+         if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%word
+      else
+         call add_text(keys%schema, name, meaning, variable, example, is_optional)
+      end if
+   end subroutine text
+
+   !> A list of numbers.
+   subroutine numbers(keys, name, range, meaning, variable, example, is_optional, usual)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Range of each value
+      type(range_t), intent(in) :: range
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> What gets the values [SI unit]
+      real(wp), allocatable, intent(inout) :: variable(:)
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+      !> May it be left out?
+      logical, intent(in), optional :: is_optional
+      !> Ends of the usual range of each [unit of the key]
+      real(wp), intent(in), optional :: usual(2)
+
+      integer :: position
+
+      if (associated(keys%schema)) then
+         call add_numbers(keys%schema, name, range, meaning, example, is_optional, usual)
+         return
+      end if
+      call keys%find(name, position)
+      if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%numbers
+   end subroutine numbers
+
+   !> A list of whole numbers.
+   subroutine whole_numbers(keys, name, range, meaning, variable, example, is_optional)
+      !> The keys
+      class(keys_t), intent(inout) :: keys
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Range of each value
+      type(range_t), intent(in) :: range
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> What gets the values
+      integer, allocatable, intent(inout), optional :: variable(:)
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+      !> May it be left out?
+      logical, intent(in), optional :: is_optional
+
+      integer :: position
+
+      if (associated(keys%schema)) then
+         call add_integers(keys%schema, name, range, meaning, example, is_optional)
+         return
+      end if
+      call keys%find(name, position)
+      if (.not. present(variable)) return
+      if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%integers
+   end subroutine whole_numbers
+
+end module camroller_deck_binder
