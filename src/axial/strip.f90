@@ -33,17 +33,23 @@ module camroller_strip
       & -1.530248139146453e-03_wp, 6.726060828148327e-04_wp, -3.211205043519326e-04_wp, 1.553646552595705e-03_wp, &
       & 7.756770206188315e-04_wp, 4.250573394273362e-05_wp]
 
+   !> 1, 2, ..., which the derivative over t^2 or t^-2 brings before its power [-]
+   real(wp), parameter :: order(10) = [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp, 7.0_wp, 8.0_wp, 9.0_wp, 10.0_wp]
+   !> Coefficients of these derivatives [-]
+   real(wp), parameter :: far_slopes(*) = order*far_powers(2:), near_slopes(*) = order(:9)*near_powers(2:), &
+      & near_log_slopes(*) = order(:9)*near_logs(2:)
+
 contains
 
    !> The function at distances that grow.
    pure subroutine strip_function(distances, logs, width, values, slopes)
       !> Distances along the axis, rising, above zero [any length]; their logarithms
-      real(wp), intent(in) :: distances(:), logs(:)
+      real(wp), intent(in), contiguous :: distances(:), logs(:)
       !> Half width, above zero [the same length]
       real(wp), intent(in) :: width
       !> F; its slope over ln t, where wanted [-]
-      real(wp), intent(out) :: values(:)
-      real(wp), intent(out), optional :: slopes(:)
+      real(wp), intent(out), contiguous :: values(:)
+      real(wp), intent(out), optional, contiguous :: slopes(:)
 
       ! ln(width); t^2 or t^-2; polynomials and their slopes [-]
       real(wp) :: log_width
@@ -52,40 +58,40 @@ contains
 
       log_width = log(width)
       near = count(distances < width)
-      if (near > 0) then
-         call sum_powers(near_powers, (distances(:near)/width)**2, sums(:near), rises(:near))
-         values(:near) = sums(:near)
-         if (present(slopes)) slopes(:near) = rises(:near)
-         call sum_powers(near_logs, (distances(:near)/width)**2, sums(:near), rises(:near))
-         values(:near) = distances(:near)/width*(values(:near) + (log_width - logs(:near))*sums(:near))
-         if (present(slopes)) slopes(:near) = values(:near) + distances(:near)/width*(2.0_wp*(distances(:near)/width)**2 &
-            & *(slopes(:near) + (log_width - logs(:near))*rises(:near)) - sums(:near))
-      end if
+      square(:near) = (distances(:near)/width)**2
       square(near + 1:) = (width/distances(near + 1:))**2
-      call sum_powers(far_powers, square(near + 1:), sums(near + 1:), rises(near + 1:))
+      if (near > 0) then
+         call sum_powers(near_powers, square(:near), values(:near))
+         call sum_powers(near_logs, square(:near), sums(:near))
+         values(:near) = distances(:near)/width*(values(:near) + (log_width - logs(:near))*sums(:near))
+         if (present(slopes)) then
+            call sum_powers(near_slopes, square(:near), slopes(:near))
+            call sum_powers(near_log_slopes, square(:near), rises(:near))
+            slopes(:near) = values(:near) + distances(:near)/width*(2.0_wp*square(:near)*(slopes(:near) &
+               & + (log_width - logs(:near))*rises(:near)) - sums(:near))
+         end if
+      end if
+      call sum_powers(far_powers, square(near + 1:), sums(near + 1:))
       values(near + 1:) = far_part + logs(near + 1:) - log_width + sums(near + 1:)*square(near + 1:)
-      if (present(slopes)) slopes(near + 1:) = 1.0_wp - 2.0_wp*square(near + 1:)*(sums(near + 1:) + square(near + 1:) &
-         & *rises(near + 1:))
+      if (.not. present(slopes)) return
+      call sum_powers(far_slopes, square(near + 1:), rises(near + 1:))
+      slopes(near + 1:) = 1.0_wp - 2.0_wp*square(near + 1:)*(sums(near + 1:) + square(near + 1:)*rises(near + 1:))
    end subroutine strip_function
 
-   !> Polynomials and their derivatives.
-   pure subroutine sum_powers(factors, x, sums, slopes)
+   !> Polynomials.
+   pure subroutine sum_powers(factors, x, sums)
       !> Coefficients of x^0, x^1, ... [-]
       real(wp), intent(in) :: factors(:)
       !> Where [-]
       real(wp), intent(in), contiguous :: x(:)
-      !> Sums, their derivatives over x [-]
-      real(wp), intent(out), contiguous :: sums(:), slopes(:)
+      !> Sums [-]
+      real(wp), intent(out), contiguous :: sums(:)
 
-      integer :: i, j
+      integer :: j
 
       sums = factors(size(factors))
-      slopes = 0.0_wp
       do j = size(factors) - 1, 1, -1
-         do i = 1, size(x)
-            slopes(i) = slopes(i)*x(i) + sums(i)
-            sums(i) = sums(i)*x(i) + factors(j)
-         end do
+         sums = sums*x + factors(j)
       end do
    end subroutine sum_powers
 

@@ -73,21 +73,24 @@ contains
       end do
    end subroutine new_spring_modes
 
-   !> What waves add to the compression of the coils where they add most, as of the whole spring: with the whole spring's, coils
-   !> touch where it is the travel from free to solid length.
-   pure function wave_compression(modes, amplitudes) result(compression)
+   !> What waves take from the compression of the coils where they take most, and add where they add most, as of the whole spring:
+   !> with the whole spring's, a part has none left where the sum is zero, and coils touch where it is the travel from free to solid
+   !> length.
+   pure function wave_compression(modes, amplitudes) result(ends)
       !> The modes
       type(spring_modes_t), intent(in) :: modes
       !> q_n [m]
       real(wp), intent(in) :: amplitudes(:)
-      !> Largest of `sum n pi q_n cos(n pi xi)` [m]
-      real(wp) :: compression
+      !> Smallest and largest of `sum n pi q_n cos(n pi xi)`, at most and at least zero [m]
+      real(wp) :: ends(2)
 
+      real(wp) :: added ! at one place [m]
       integer :: i
 
-      compression = 0.0_wp
+      ends = 0.0_wp
       do i = 1, size(modes%slopes, 2)
-         compression = max(compression, dot_product(modes%slopes(:, i), amplitudes))
+         added = dot_product(modes%slopes(:, i), amplitudes)
+         ends = [min(ends(1), added), max(ends(2), added)]
       end do
    end function wave_compression
 

@@ -80,7 +80,7 @@ module camroller_flexible_measures
       & measure_t("joint_force_min", "N", "smallest force in the joint of finger and pivot; negative: the socket would open"), &
       & measure_t("joint_tension_share", "1", "part of the cycle with tension in that joint"), &
       & measure_t("surge_force", "N", "largest force of the spring's first mode"), &
-      & measure_t("coil_ratio", "1", "largest travel of coils by waves over the spring's compression; at 1 a part has none left"), &
+      & measure_t("coil_ratio", "1", "largest part of the spring's compression that waves take from coils; at 1 none is left"), &
       & measure_t("joint_force_min_event", "N", "smallest force in that joint in the upper three quarters of the lift"), &
       & measure_t("valve_lift_at_nose", "m", "lift at the cam angle of full lift"), &
       & measure_t("valve_velocity_at_nose", "m s-1", "speed of the valve at the cam angle of full lift"), &
@@ -376,22 +376,18 @@ contains
       !> The measures [unit of the measure]
       real(wp), intent(inout) :: values(:)
 
-      ! Compression of the whole spring, travel of coils by the modes [m]
-      real(wp) :: compression, travel
-      integer :: first, n
+      ! Compression of the whole spring; what waves add to it, at least and at most [m]
+      real(wp) :: compression, added(2)
+      integer :: first
 
       compression = state(at_lift) + model%train%precompression
       values(coil_compression) = max(values(coil_compression), compression)
       if (model%flexible%modes%count == 0) return
       first = first_mode(model)
-      values(coil_compression) = max(values(coil_compression), compression + wave_compression(model%flexible%modes, &
-         & state(first:first + 2*model%flexible%modes%count - 2:2)))
+      added = wave_compression(model%flexible%modes, state(first:first + 2*model%flexible%modes%count - 2:2))
+      values(coil_compression) = max(values(coil_compression), compression + added(2))
       values(surge_force) = max(values(surge_force), model%train%stiffness*pi*abs(state(first)))
-      travel = 0.0_wp
-      do n = 1, model%flexible%modes%count
-         travel = travel + n*pi*abs(state(first + 2*(n - 1)))
-      end do
-      values(coil_ratio) = max(values(coil_ratio), travel/compression)
+      values(coil_ratio) = max(values(coil_ratio), -added(1)/compression)
    end subroutine add_spring
 
    !> Take a step at the seat into the measures: the valve meets its seat where its lift passes zero.

@@ -82,9 +82,9 @@ contains
          call judge_oil(model, solution, speed, remarks)
       end if
       if (solution%highest(coil_ratio) > 1.0_wp) then
-         call add_remark(remarks, relieved_spring, "waves in the spring may take all compression from a part of it: "// &
-            & "they move coils by up to "//number_text(solution%highest(coil_ratio), 3)//" times what the spring is "// &
-            & "compressed by; a real spring then leaves its seat or its retainer, which is not computed. A part of it is "// &
+         call add_remark(remarks, relieved_spring, "waves in the spring take all compression from a part of it, "// &
+            & "up to "//number_text(solution%highest(coil_ratio), 3)//" times what there is; "// &
+            & "a real spring then leaves its seat or its retainer, which is not computed. A part of it is "// &
             & "compressed by up to "// &
             & number_text(1.0e3_wp*solution%highest(coil_compression), 4)//" mm, as of the whole spring; with less than that "// &
             & "to its solid length its coils clash", solution%highest(coil_ratio))

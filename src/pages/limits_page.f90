@@ -58,6 +58,8 @@ contains
             & " speeds, in steps of "//number_text(search%step*per_minute, 5)//" and then to 1; contact of the rigid "// &
             & "train with the valve off its seat"//n// &
             & unseen_limit//": try a smaller --step"
+         if (any(search%period == 0 .and. search%above <= search%highest)) text = text//n//"about: the turns of a motion "// &
+            & "without a period differ, and others may pass the limit some tens of rev/min away"
       else
          text = text//n//"speeds in rev/min; the rigid train by its forces without friction, which follow the "// &
             & "square of the speed"
@@ -101,6 +103,8 @@ contains
 
       if (limit == adjuster_limit .and. .not. search%has_adjuster) then
          words = "-"
+      else if (search%above(limit) <= search%highest .and. search%period(limit) == 0) then
+         words = "about "//number_text(search%above(limit)*per_minute, 3)
       else if (search%above(limit) <= search%highest) then
          words = number_text(search%above(limit)*per_minute, 5)
       else

@@ -325,7 +325,6 @@ class Point:
             + self.m_s * f.spring_damping * sum(w * v * v for w, v in zip(self.w, qd))
         rigid = g.lift(math.remainder(theta, 2 * math.pi))
         e.rigid = rigid
-        e.coils = sum(i * math.pi * abs(u) for i, u in enumerate(q, 1)) / (x + t.precompression)
         rates[self.size:] = [omega * (W * h_N + T1 * h_F + 2 * F_r * R), F_t * V_s + F_r * (2 * V_c - V_s), T_B * omega_rel,
                              self.guide * xd * xd, damping, e.gallery, e.Q_l, float(rigid > 0 and W <= 0)]
         return rates, e
@@ -388,16 +387,16 @@ class Point:
                 e = self.evaluate(place, s.tolist())[1]
                 mode = abs(s[self.modes0]) if self.modes0 < self.size else 0.0
                 plunger = (s[5], s[7]) if self.f.adjuster else (0.0, 0.0)
-                rows.append((place, e.W, e.rigid, s[2], s[3], e.joint, mode, e.coils, e.check, *plunger))
+                rows.append((place, e.W, e.rigid, s[2], s[3], e.joint, mode, e.check, *plunger))
         r = np.array(rows).T
-        place, W, rigid, x, xd, joint, q1, coils, check, y, p = r
+        place, W, rigid, x, xd, joint, q1, check, y, p = r
         # Part of each interval in which a straight line between its ends is below zero
         pull, size = np.maximum(-joint, 0.0), np.abs(joint)
         below = (pull[1:] + pull[:-1]) / np.maximum(size[1:] + size[:-1], np.finfo(float).tiny)
         m['tension_share'] = np.sum(np.diff(place) * below) / (2 * math.pi)
         i = np.argmax(W)
         m.update(load_max=W[i], load_max_angle=place[i] / DEGREE, load_min=W[rigid >= 0.25 * top].min(), lift_error_min=(x - rigid).min(),
-                 lift_error_max=(x - rigid).max(), joint_min=joint.min(), surge=self.t.stiffness * math.pi * q1.max(), coils=coils.max(),
+                 lift_error_max=(x - rigid).max(), joint_min=joint.min(), surge=self.t.stiffness * math.pi * q1.max(),
                  y_min=y.min(), y_max=y.max(), p_max=p.max(), W_min60=W[abs(place) < math.pi / 3].min(),
                  check_share=np.trapezoid((check > 0) * 1.0, place) / (2 * math.pi))
         down = np.nonzero((x[:-1] > 0) & (x[1:] <= 0))[0]
@@ -415,7 +414,7 @@ CASES = {'fixed_300': (300, FIXED), 'fixed_900': (900, FIXED), 'fixed_1500': (15
          'adjuster_2500': (2500, ADJUSTER), 'reversed_900': (900, Flexible(train=Train(geometry=thesis_geometry(sense=-1)))),
          'softseat_1500': (1500, Flexible(seat_stiffness=1e6, seat_damping=0.05)), 'lash_900': (900, Flexible(lash=1e-4))}
 COLUMNS = ('load_max', 'lift_error_min', 'lift_error_max', 'seating', 'joint_min', 'tension_share', 'float_share', 'losses_of_contact',
-           'surge', 'coils', 'mean_drive', 'loss', 'mean_damping', 'mean_needle', 'y_min', 'y_max', 'p_max', 'leak_volume')
+           'surge', 'mean_drive', 'loss', 'mean_damping', 'mean_needle', 'y_min', 'y_max', 'p_max', 'leak_volume')
 
 
 def row(name):
