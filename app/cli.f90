@@ -340,6 +340,21 @@ contains
          call raise(error, kind_usage, "option '"//option//"' takes no value"//see(config))
          return
       end if
+      call set_option(option, value, config, error)
+   end subroutine read_option
+
+   !> What an option sets.
+   ! style: procedure because it is one list
+   subroutine set_option(option, value, config, error)
+      !> The option, and its value where it has one
+      character(len=*), intent(in) :: option, value
+      !> What to do
+      type(config_t), intent(inout) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: known, text
+
       select case (option)
       case ("--output")
          config%output = value
@@ -360,21 +375,6 @@ contains
          config%is_summary = .true.
       case ("--help")
          config%is_help = .true.
-      case default
-         call set_option_of_many(option, value, config, error)
-      end select
-   end subroutine read_option
-
-   !> Options of the commands on many cases.
-   subroutine set_option_of_many(option, value, config, error)
-      !> The option, and its value where it has one
-      character(len=*), intent(in) :: option, value
-      !> What to do
-      type(config_t), intent(inout) :: config
-      !> Usage error
-      type(error_t), allocatable, intent(out) :: error
-
-      select case (option)
       case ("--threads")
          call read_whole_number(option, value, "a number of threads, from 1 to "//integer_text(most_threads), see(config), 1, &
             & most_threads, config%threads, error)
@@ -388,23 +388,6 @@ contains
          config%is_partial = .true.
       case ("--film")
          config%is_film = .true.
-      case default
-         call set_option_of_looking(option, value, config, error)
-      end select
-   end subroutine set_option_of_many
-
-   !> Options that choose what is looked at.
-   subroutine set_option_of_looking(option, value, config, error)
-      !> The option, and its value where it has one
-      character(len=*), intent(in) :: option, value
-      !> What to do
-      type(config_t), intent(inout) :: config
-      !> Usage error
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: known, text
-
-      select case (option)
       case ("--point")
          config%has_no_sweep = .true.
          text = value
@@ -448,8 +431,7 @@ contains
             call raise(error, kind_usage, "two options name the same file, '"//value//"'"//see(config))
          end if
       end select
-
-   end subroutine set_option_of_looking
+   end subroutine set_option
 
    !> Does the name of a file end as that of another kind of file?
    pure function has_other_ending(path, ending) result(verdict)

@@ -4,10 +4,12 @@
 !> command that says what runs.
 module camroller_command_table
    use camroller_flexible_measures, only : event_words
+   use camroller_limits_page, only : unseen_limit
    implicit none
    private
 
    public :: command_t, option_t, list_commands, find_command, find_option, help_for, help_for_all
+   public :: exit_codes
 
    !> One option of a command
    type :: option_t
@@ -37,6 +39,10 @@ module camroller_command_table
    end type command_t
 
    character(len=*), parameter :: n = new_line("a")
+   !> Exit codes of the program, in lines
+   character(len=*), parameter :: exit_codes(3) = [character(len=96) :: &
+      & "0 success, 2 command line, 3 deck or table, 4 impossible values or a law out of range,", &
+      & "5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 9 too little memory,", "70 internal error."]
    !> Column where meanings of options and commands begin
    integer, parameter :: meaning_column = 29
    !> Meanings of options that several commands have
@@ -157,7 +163,7 @@ contains
          & "part in the "//event_words//", and the valve meets its seat too fast or no longer closes: for the deck"//n// &
          & "without its &sweep, whatever its speed. Those of the rigid train follow from its forces. A train with &dynamics"//n// &
          & "is run at one speed after another, and between two of them where a limit was passed, with a tolerance of 1e-4"//n// &
-         & "where the deck gives none; a limit that is passed and regained within a step is not seen. Prints a table.")
+         & "where the deck gives none; "//unseen_limit//". Prints a table.")
       call add_option(commands, "--to", "", "SPEED", "highest speed of the camshaft tried [rev/min]; 6000 where not given")
       call add_option(commands, "--step", "", "SPEED", "step of these speeds [rev/min]; 100 where not given")
       call add_option(commands, "--seating", "", "SPEED", "speed of the valve at its seat that is too fast [m/s]; 0.5 where "// &
@@ -342,9 +348,7 @@ contains
          text = text//n//padded("  camroller "//trim(trim(commands(i)%name)//" "//commands(i)%subject))//commands(i)%summary
       end do
       text = text//n//n// &
-         & "Exit codes: 0 success, 2 command line, 3 deck or table, 4 impossible values or a law out of range,"//n// &
-         & "5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 9 too little memory,"//n// &
-         & "70 internal error."
+         & "Exit codes: "//trim(exit_codes(1))//n//trim(exit_codes(2))//n//trim(exit_codes(3))
    end subroutine help_for_all
 
    !> A text made as long as the column before a meaning.

@@ -2,7 +2,7 @@
 !>
 !> In: the table. Out: text.
 module camroller_help_pages
-   use camroller_command_table, only : command_t
+   use camroller_command_table, only : command_t, exit_codes
    use camroller_version, only : version_text
    implicit none
    private
@@ -39,8 +39,7 @@ contains
             end do
          end associate
       end do
-      text = text//".SH EXIT STATUS"//n//"0 success, 2 command line, 3 deck or table, 4 impossible values or a law out of "// &
-         & "range, 5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 9 too little memory, 70 internal error."
+      text = text//".SH EXIT STATUS"//n//trim(exit_codes(1))//" "//trim(exit_codes(2))//" "//trim(exit_codes(3))
    end subroutine manual_page
 
    !> A text for a manual page: no line of it is taken for an instruction, and dashes stay dashes.

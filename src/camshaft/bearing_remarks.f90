@@ -19,8 +19,11 @@ module camroller_bearing_remarks
    implicit none
    private
 
-   public :: judge_bearings, judge_step_bearings, name_bearing
+   public :: judge_bearings, judge_step_bearings, name_bearing, smooth_law_fails
 
+   !> What a film means that is thin beside the roughness, where no law of asperities takes the load from it
+   character(len=*), parameter :: smooth_law_fails = "the law for smooth surfaces leaves the film load that asperities would "// &
+      & "carry, and the friction stated is too small"
    !> Film below which usual surfaces touch: the roughness of a ground journal, 0.2 um, and of a bored bearing, 0.4 um, together [m]
    real(wp), parameter :: usual_roughness = 0.5e-6_wp
    !> Films are looked at closely from so far above a limit on: the angles of the means lie up to three degrees apart, or ten where
@@ -164,8 +167,7 @@ contains
       if (has_asperities) then
          scale = films%limit/thinnest_smooth_film
          unit = " of the roughness"
-         consequence = "; there the law for smooth surfaces leaves the film load that asperities would carry, and the friction "// &
-            & "stated is too small"
+         consequence = "; there "//smooth_law_fails
       else
          scale = 1.0e-6_wp
          unit = " um"

@@ -88,6 +88,7 @@ contains
 
    !> Leave an effect out, or put the simpler law in its place. A rigid train has neither a spring that surges nor an adjuster that
    !> gives way.
+   ! style: procedure because it is one list
    subroutine leave_out(variant, effect)
       !> In: a case; out: the case without the effect, the same where it has not got it
       type(case_t), intent(inout) :: variant
@@ -128,12 +129,24 @@ contains
          if (allocated(variant%finger_pivot)) deallocate (variant%finger_pivot)
       case (effect_drag)
          if (allocated(variant%needle_drag)) deallocate (variant%needle_drag)
-      case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat, effect_shaft_drag)
-         call leave_bearing_part_out(variant, effect)
+      case (effect_bearing_asperity)
+         if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
+      case (effect_belt_pull)
+         if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
+      case (effect_orbit)
+         if (allocated(variant%cam_bearings)) variant%cam_bearings%journal_motion = journal_motion_names(motion_quasi_steady)
+      case (effect_bearing_heat)
+         if (allocated(variant%bearing_heat)) deallocate (variant%bearing_heat)
+      case (effect_shaft_drag)
+         if (allocated(variant%shaft_drag)) deallocate (variant%shaft_drag)
       case (effect_profile)
          if (allocated(variant%roller_profile)) deallocate (variant%roller_profile)
-      case (effect_modifier, effect_boundary_law, effect_running_in)
-         call leave_boundary_part_out(variant, effect)
+      case (effect_modifier)
+         if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
+      case (effect_boundary_law)
+         call leave_boundary_law_out(variant)
+      case (effect_running_in)
+         call leave_running_in_out(variant)
       case (effect_inlet_heat)
          if (allocated(variant%heat)) variant%heat%inlet_law = inlet_law_names(inlet_none)
       case (effect_contact_heat)
@@ -160,23 +173,6 @@ contains
       if (allocated(variant%wear)) deallocate (variant%wear)
       call leave_running_in_out(variant)
    end subroutine leave_asperities_out
-
-   !> Leave out what changes the friction of asperities.
-   pure subroutine leave_boundary_part_out(variant, effect)
-      !> In: a case; out: without it
-      type(case_t), intent(inout) :: variant
-      !> Position in `effect_names`
-      integer, intent(in) :: effect
-
-      select case (effect)
-      case (effect_modifier)
-         if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
-      case (effect_boundary_law)
-         call leave_boundary_law_out(variant)
-      case (effect_running_in)
-         call leave_running_in_out(variant)
-      end select
-   end subroutine leave_boundary_part_out
 
    !> Leave the law of boundary friction out: the coefficient is that at its references, of a table the mean of its points.
    pure subroutine leave_boundary_law_out(variant)
@@ -218,27 +214,6 @@ contains
       end if
       deallocate (variant%lash_adjuster)
    end subroutine fix_pivot
-
-   !> Leave out what comes on top of the camshaft bearings.
-   pure subroutine leave_bearing_part_out(variant, effect)
-      !> In: a case; out: without it
-      type(case_t), intent(inout) :: variant
-      !> One of `needs_bearings`
-      integer, intent(in) :: effect
-
-      select case (effect)
-      case (effect_bearing_asperity)
-         if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
-      case (effect_belt_pull)
-         if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
-      case (effect_orbit)
-         if (allocated(variant%cam_bearings)) variant%cam_bearings%journal_motion = journal_motion_names(motion_quasi_steady)
-      case (effect_bearing_heat)
-         if (allocated(variant%bearing_heat)) deallocate (variant%bearing_heat)
-      case (effect_shaft_drag)
-         if (allocated(variant%shaft_drag)) deallocate (variant%shaft_drag)
-      end select
-   end subroutine leave_bearing_part_out
 
    !> Are there camshaft bearings, and between them one cam of the first lobe shape at phase 0, as a case without them has it?
    pure function has_single_cam(case) result(has)
@@ -301,6 +276,7 @@ contains
    end subroutine leave_all_but
 
    !> Does a case have an effect that can be left out?
+   ! style: procedure because it is one list
    pure function has_effect(case, effect) result(has)
       !> The case
       type(case_t), intent(in) :: case
@@ -344,12 +320,24 @@ contains
          has = allocated(case%finger_pivot)
       case (effect_drag)
          has = allocated(case%needle_drag)
-      case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat, effect_shaft_drag)
-         has = has_bearing_part(case, effect)
+      case (effect_bearing_asperity)
+         has = allocated(case%bearing_asperity)
+      case (effect_belt_pull)
+         has = allocated(case%belt_pull)
+      case (effect_orbit)
+         if (allocated(case%cam_bearings)) has = case%cam_bearings%journal_motion == journal_motion_names(motion_orbit)
+      case (effect_bearing_heat)
+         has = allocated(case%bearing_heat)
+      case (effect_shaft_drag)
+         has = allocated(case%shaft_drag)
       case (effect_profile)
          has = allocated(case%roller_profile)
-      case (effect_modifier, effect_boundary_law, effect_running_in)
-         has = has_boundary_part(case, effect)
+      case (effect_modifier)
+         has = allocated(case%asperity) .and. allocated(case%friction_modifier)
+      case (effect_boundary_law)
+         has = allocated(case%asperity) .and. allocated(case%boundary_law)
+      case (effect_running_in)
+         has = allocated(case%asperity) .and. allocated(case%running_in)
       case (effect_inlet_heat)
          if (allocated(case%heat)) has = case%heat%inlet_law /= inlet_law_names(inlet_none)
       case (effect_contact_heat)
@@ -362,45 +350,5 @@ contains
          has = allocated(case%dynamics) .and. allocated(case%lash_adjuster)
       end select
    end function has_effect
-
-   !> Does a case have what changes the friction of its asperities?
-   pure function has_boundary_part(case, effect) result(has)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Position in `effect_names`
-      integer, intent(in) :: effect
-      !> Does it?
-      logical :: has
-
-      has = .false.
-      if (.not. allocated(case%asperity)) return
-      if (effect == effect_modifier) has = allocated(case%friction_modifier)
-      if (effect == effect_boundary_law) has = allocated(case%boundary_law)
-      if (effect == effect_running_in) has = allocated(case%running_in)
-   end function has_boundary_part
-
-   !> Does a case have what comes on top of the camshaft bearings?
-   pure function has_bearing_part(case, effect) result(has)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> One of `needs_bearings`
-      integer, intent(in) :: effect
-      !> Does it?
-      logical :: has
-
-      has = .false.
-      select case (effect)
-      case (effect_bearing_asperity)
-         has = allocated(case%bearing_asperity)
-      case (effect_belt_pull)
-         has = allocated(case%belt_pull)
-      case (effect_orbit)
-         if (allocated(case%cam_bearings)) has = case%cam_bearings%journal_motion == journal_motion_names(motion_orbit)
-      case (effect_bearing_heat)
-         has = allocated(case%bearing_heat)
-      case (effect_shaft_drag)
-         has = allocated(case%shaft_drag)
-      end select
-   end function has_bearing_part
 
 end module camroller_effect_list

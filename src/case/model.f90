@@ -32,7 +32,7 @@ module camroller_model
    use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
    use camroller_needle, only : bearing_part_t, new_bearing_part, set_bearing_oil
    use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil, set_drag_speed
-   use camroller_guide, only : guide_drag_coefficient
+   use camroller_guide, only : guide_part_t, new_guide_part, set_guide_oil
    use camroller_joints, only : joints_t, set_joint_oil
    use camroller_joint_setup, only : set_joints
    use camroller_roller, only : spin_names, ring_inertia
@@ -81,10 +81,8 @@ module camroller_model
       !> Numerical film: how, and films over speed and load for the oil at its temperature
       type(ehl_t), allocatable :: ehl
       type(film_table_t), allocatable :: film_table
-      !> Drag of the valve guide per valve speed [N s/m]; allocated where the case has a guide
-      real(wp), allocatable :: guide_drag
-      !> The same over the viscosity [m]
-      real(wp) :: guide_factor = 0.0_wp
+      !> Guide of the valve
+      type(guide_part_t), allocatable :: guide
       !> Sliding joints; allocated where the case has any
       type(joints_t), allocatable :: joints
       !> Equivalent modulus, E' [Pa]
@@ -176,7 +174,7 @@ contains
       if (allocated(model%heat)) deallocate (model%heat)
       if (allocated(model%bearing)) deallocate (model%bearing)
       if (allocated(model%drag)) deallocate (model%drag)
-      if (allocated(model%guide_drag)) deallocate (model%guide_drag)
+      if (allocated(model%guide)) deallocate (model%guide)
       if (allocated(model%gas)) deallocate (model%gas)
       if (allocated(model%joints)) deallocate (model%joints)
       if (allocated(model%flexible)) deallocate (model%flexible)
@@ -219,7 +217,7 @@ contains
       call get_oil(model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return
       if (allocated(model%boundary)) call set_boundary_temperature(model%boundary, oil_temperature)
-      if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
+      if (allocated(model%guide)) call set_guide_oil(model%guide, model%oil%viscosity)
       if (allocated(model%joints)) call set_joint_oil(model%joints, model%oil%viscosity)
       if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
       if (allocated(model%bearing)) call set_bearing_oil(model%bearing, model%oil%viscosity, &
@@ -470,9 +468,8 @@ contains
          if (allocated(error)) return
       end if
       if (allocated(case%valve_guide)) then
-         allocate (model%guide_drag)
-         model%guide_factor = guide_drag_coefficient(1.0_wp, case%valve_guide%length, case%valve_guide%stem_diameter, &
-            & case%valve_guide%radial_clearance)
+         allocate (model%guide)
+         call new_guide_part(model%guide, case%valve_guide)
       end if
       call set_joints(model%joints, case, model%linkage, model%lift_law, error)
       if (allocated(error)) return

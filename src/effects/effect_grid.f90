@@ -13,7 +13,7 @@ module camroller_effect_grid
    implicit none
    private
 
-   public :: grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, sampling_error
+   public :: grid_t, points, slowest_decay, make_grid, delay, mean_over, sampling_error
 
    !> Angles of the survey
    integer, parameter :: points = 48
@@ -113,7 +113,7 @@ contains
    end subroutine fill_piece
 
    !> Let a quantity follow its balance with its decay, round the cycle until periodic.
-   pure subroutine delay(grid, decay, balance, values)
+   pure subroutine delay(grid, decay, balance, values, surveys, is_slow)
       !> The angles
       type(grid_t), intent(in) :: grid
       !> Decay rates [1/rad]
@@ -122,75 +122,39 @@ contains
       real(wp), intent(in) :: balance(points)
       !> The quantity; in: a start [any]
       real(wp), intent(inout) :: values(points)
-
-      call follow(grid, 1, 1, .false., decay, balance, values)
-   end subroutine delay
-
-   !> The same with every second angle: two surveys, each with half of the angles.
-   pure subroutine delay_from_half(grid, decay, balance, values)
-      !> The angles
-      type(grid_t), intent(in) :: grid
-      !> Decay rates [1/rad]
-      real(wp), intent(in) :: decay(points)
-      !> The balance [any]
-      real(wp), intent(in) :: balance(points)
-      !> The quantity; in: a start [any]
-      real(wp), intent(inout) :: values(points)
-
-      call follow(grid, 2, 1, .false., decay, balance, values)
-      call follow(grid, 2, 2, .false., decay, balance, values)
-   end subroutine delay_from_half
-
-   !> The same with the slower decay of two angles all the way between them.
-   pure subroutine delay_slowly(grid, decay, balance, values)
-      !> The angles
-      type(grid_t), intent(in) :: grid
-      !> Decay rates [1/rad]
-      real(wp), intent(in) :: decay(points)
-      !> The balance [any]
-      real(wp), intent(in) :: balance(points)
-      !> The quantity; in: a start [any]
-      real(wp), intent(inout) :: values(points)
-
-      call follow(grid, 1, 1, .true., decay, balance, values)
-   end subroutine delay_slowly
-
-   !> Follow a balance at some of the angles.
-   pure subroutine follow(grid, step, first, is_slow, decay, balance, values)
-      !> The angles
-      type(grid_t), intent(in) :: grid
-      !> From one angle to the next, and the first
-      integer, intent(in) :: step, first
-      !> Is the decay between two angles the slower one of both, rather than their mean?
-      logical, intent(in) :: is_slow
-      !> Decay rates [1/rad]
-      real(wp), intent(in) :: decay(points)
-      !> The balance [any]
-      real(wp), intent(in) :: balance(points)
-      !> The quantity [any]
-      real(wp), intent(inout) :: values(points)
+      !> Surveys that share the angles, each of which does without those of the others; 1 without it
+      integer, intent(in), optional :: surveys
+      !> Is the decay between two angles the slower one of both, rather than their mean? Not without it
+      logical, intent(in), optional :: is_slow
 
       ! Decay rate between two angles [1/rad]; decay, what it leaves, its mean weight [-]
       real(wp) :: rate, exponent, left, weight
-      integer :: lap, i, next
+      integer :: step, first, lap, i, next
+      logical :: takes_slower
 
-      do lap = 1, laps
-         do i = first, points, step
-            next = modulo(i + step - 1, points) + 1
-            if (grid%piece(next) /= grid%piece(i)) then
-               left = exp(-min(decay(i)*grid%after(i) + decay(next)*grid%before(next), 700.0_wp))
-               weight = exp(-min(decay(next)*grid%before(next), 700.0_wp))
-            else
-               rate = 0.5_wp*(decay(i) + decay(next))
-               if (is_slow) rate = min(decay(i), decay(next))
-               exponent = max(rate, slowest_decay)*modulo(grid%angles(next) - grid%angles(i), two_pi)
-               left = exp(-min(exponent, 700.0_wp))
-               weight = (1.0_wp - left)/exponent
-            end if
-            values(next) = balance(next) + left*(values(i) - balance(i)) - weight*(balance(next) - balance(i))
+      step = 1
+      if (present(surveys)) step = surveys
+      takes_slower = .false.
+      if (present(is_slow)) takes_slower = is_slow
+      do first = 1, step
+         do lap = 1, laps
+            do i = first, points, step
+               next = modulo(i + step - 1, points) + 1
+               if (grid%piece(next) /= grid%piece(i)) then
+                  left = exp(-min(decay(i)*grid%after(i) + decay(next)*grid%before(next), 700.0_wp))
+                  weight = exp(-min(decay(next)*grid%before(next), 700.0_wp))
+               else
+                  rate = 0.5_wp*(decay(i) + decay(next))
+                  if (takes_slower) rate = min(decay(i), decay(next))
+                  exponent = max(rate, slowest_decay)*modulo(grid%angles(next) - grid%angles(i), two_pi)
+                  left = exp(-min(exponent, 700.0_wp))
+                  weight = (1.0_wp - left)/exponent
+               end if
+               values(next) = balance(next) + left*(values(i) - balance(i)) - weight*(balance(next) - balance(i))
+            end do
          end do
       end do
-   end subroutine follow
+   end subroutine delay
 
    !> Mean over the cycle.
    pure function mean_over(grid, values) result(mean)

@@ -12,8 +12,7 @@
 module camroller_effect_survey
    use camroller_contact_traction, only : largest_shear
    use camroller_kinds, only : wp
-   use camroller_effect_grid, only : grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, &
-      & sampling_error
+   use camroller_effect_grid, only : grid_t, points, slowest_decay, make_grid, delay, mean_over, sampling_error
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state
@@ -147,9 +146,9 @@ contains
       again = survey%sliding
       call delay(survey%grid, decay, balance, again)
       coarse = survey%balance
-      call delay_from_half(survey%grid, balance_decay, survey%balance, coarse)
+      call delay(survey%grid, balance_decay, survey%balance, coarse, surveys=2)
       slow = survey%balance
-      call delay_slowly(survey%grid, balance_decay, survey%balance, slow)
+      call delay(survey%grid, balance_decay, survey%balance, slow, is_slow=.true.)
       survey%error = max(abs(again - survey%sliding), abs(coarse - survey%sliding), abs(slow - survey%sliding))
       if (mean_over(survey%grid, survey%error) > largest_error*mean_over(survey%grid, abs(survey%sliding))) then
          survey%trouble = "the survey of the cycle does not resolve the slip"

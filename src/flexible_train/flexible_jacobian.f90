@@ -472,7 +472,7 @@ contains
       force([at_finger, at_finger_rate]) = pad([by_finger, by_finger_rate])
       if (allocated(model%flexible%adjuster)) force([at_plunger, at_plunger_rate]) = pad([by_pivot, by_pivot_rate])
       force(at_lift) = pad(5) - now%seat%by_approach - model%train%stiffness
-      force(at_speed) = pad(6) - now%seat%by_rate - now%guide_drag
+      force(at_speed) = pad(6) - now%seat%by_rate - now%guide_slope
       associate (modes => model%flexible%modes)
          place = first_mode(model)
          do n = 1, modes%count

@@ -10,6 +10,7 @@ module camroller_flexible_train
    use camroller_model, only : model_t
    use camroller_kinematics, only : linkage_t
    use camroller_gas, only : gas_force
+   use camroller_guide, only : find_guide_drag
    use camroller_roller, only : spin_acceleration
    use camroller_contact_compliance, only : series_load, damping_factor, one_sided_force
    use camroller_spring_modes, only : most_modes, valve_pull
@@ -80,8 +81,8 @@ module camroller_flexible_train
       type(joint_friction_t), allocatable :: joint_friction
       !> Pull of the spring's modes beside its static force [N]
       real(wp) :: mode_pull = 0.0_wp
-      !> Drag of the valve's guide per speed [N s/m]
-      real(wp) :: guide_drag = 0.0_wp
+      !> Drag of the valve's guide: over its speed, and its slope [N s/m]
+      real(wp) :: guide_drag = 0.0_wp, guide_slope = 0.0_wp
       !> Finger's centre of mass along the adjuster's axis: first and second derivative over gamma [m]
       real(wp) :: centre_slope, centre_curvature
       !> Accelerations of finger [rad/s^2], valve and pivot [m/s^2]
@@ -304,7 +305,7 @@ contains
          call push(now%pad, flexible%pad_stiffness, flexible%pad_damping, approach, rate)
          call push(now%seat, flexible%seat_stiffness, flexible%seat_damping, -state(at_lift), -state(at_speed))
          if (allocated(model%gas)) now%gas_force = gas_force(model%gas, angle)
-         if (allocated(model%guide_drag)) now%guide_drag = model%guide_drag
+         if (allocated(model%guide)) call find_guide_drag(model%guide, state(at_speed), now%guide_drag, now%guide_slope)
          first = first_mode(model)
          now%mode_pull = valve_pull(flexible%modes, state(first::2), state(first + 1::2))
       end associate

@@ -7,7 +7,7 @@ module camroller_events
    use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, leave_rest, next_angle
    use camroller_sorting, only : sort
    use camroller_model, only : model_t, evaluate_geometry
-   use camroller_joints, only : has_curves, has_tip_curve, jumps_with_tip, jumps_with_valve
+   use camroller_joints, only : has_curves, has_sharp, has_tip_curve, jumps_with_tip
    use camroller_lift, only : is_at_rest
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -78,7 +78,7 @@ contains
 
       call add_switches(model, edges, angles)
       if (allocated(model%joints)) then
-         if (jumps_with_valve(model%joints)) call add_jumps(model, edges, angles)
+         if (has_sharp(model%joints)) call add_jumps(model, edges, angles)
       end if
    end subroutine find_changes
 

@@ -8,6 +8,7 @@
 module camroller_joint_forces
    use camroller_kinds, only : wp
    use camroller_dual, only : dual_t, operator(-), operator(*), operator(+)
+   use camroller_guide, only : find_guide_drag
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -84,13 +85,16 @@ contains
       !> Moment [N m]
       real(wp) :: moment
 
+      ! Drag of the guide over the valve's speed, its slope [N s/m]
+      real(wp) :: drag, drag_slope
       ! Moment of the joints [N m]
       type(dual_t) :: friction
 
       moment = moments%total
       if (.not. model%is_consistent) return
-      if (allocated(model%guide_drag)) then
-         moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
+      if (allocated(model%guide)) then
+         call find_guide_drag(model%guide, model%speed*position%lift_slope, drag, drag_slope)
+         moment = moment + drag*model%speed*position%lift_slope*position%valve_arm
       end if
       if (.not. allocated(model%joints)) return
       friction = stem_moment(position, stem)
@@ -113,14 +117,20 @@ contains
       real(wp) :: slope
 
       type(stem_t) :: stem
+      ! Drag of the guide over the valve's speed, its slope [N s/m]
+      real(wp) :: drag, drag_slope
       ! Moment of the joints [N m]
       type(dual_t) :: friction
 
       slope = moment_slope
       if (.not. model%is_consistent) return
-      if (allocated(model%guide_drag)) slope = slope + model%guide_drag*model%speed &
-         & *(position%lift_curvature*position%valve_arm + position%lift_slope*position%valve_arm_slope) &
-         & + gain*model%guide_drag*position%lift_slope*position%valve_arm
+      if (allocated(model%guide)) then
+         call find_guide_drag(model%guide, model%speed*position%lift_slope, drag, drag_slope)
+         slope = slope + drag*model%speed &
+            & *(position%lift_curvature*position%valve_arm + position%lift_slope*position%valve_arm_slope) &
+            & + gain*drag*position%lift_slope*position%valve_arm &
+            & + (drag_slope - drag)*(model%speed*position%lift_curvature + gain*position%lift_slope)*position%valve_arm
+      end if
       if (.not. allocated(model%joints)) return
       call set_stem(model, position, moments, axial_slope(model, position, moments, moment_slope, gain), stem, gain)
       friction = stem_moment(position, stem)
@@ -306,6 +316,8 @@ contains
 
       type(stem_motion_t) :: motion
       type(dual_t) :: speed ! of the cam [rad/s]
+      ! Drag of the guide over the valve's speed, its slope [N s/m]
+      real(wp) :: drag, drag_slope
 
       speed = cam_speed(model, gain)
       motion%lift = dual_t(position%lift, position%lift_slope)
@@ -314,7 +326,10 @@ contains
       motion%centre_height = model%linkage%b*model%linkage%base_cosine - motion%lift
       motion%arm = dual_t(position%valve_arm, position%valve_arm_slope)
       motion%axial_force = dual_t(axial_force(position, moments), axial_slope)
-      if (allocated(model%guide_drag)) motion%axial_force = motion%axial_force + model%guide_drag*motion%valve_speed
+      if (allocated(model%guide)) then
+         call find_guide_drag(model%guide, motion%valve_speed%value, drag, drag_slope)
+         motion%axial_force = motion%axial_force + dual_t(drag*motion%valve_speed%value, drag_slope*motion%valve_speed%slope)
+      end if
       call find_stem_forces(model%joints%tip, model%joints%seal, model%joints%side, motion, stem)
    end subroutine set_stem
 

@@ -9,6 +9,7 @@ module camroller_state
    use camroller_dynamics, only : moments_t, evaluate_moments, add_acceleration, kinetic_energy, stored_power
    use camroller_gas, only : gas_force
    use camroller_contact, only : solve_contact
+   use camroller_guide, only : find_guide_drag
    use camroller_joint_forces, only : joint_basis_t, joint_values_t, no_joints, evaluate_joints
    use camroller_contact_forces, only : contact_t
    use camroller_roller, only : spin_acceleration
@@ -267,6 +268,9 @@ contains
       !> What the joints have at this angle, where it is known
       type(joint_basis_t), intent(in), optional :: joints
 
+      ! Drag of the guide over the valve's speed, its slope [N s/m]
+      real(wp) :: drag, drag_slope
+
       associate (torques => state%torques, contact => state%contact)
          if (model%is_consistent) then
             torques(of_contact) = contact_power(contact%traction, contact%sliding_speed, contact%rolling_resistance, &
@@ -278,8 +282,9 @@ contains
             & *merge(contact%relative_spin, contact%roller_spin, model%is_consistent)/model%speed
          if (allocated(model%drag)) torques(of_needle_drag) = contact%bearing_drag*merge(contact%relative_spin, &
             & contact%roller_spin, model%is_consistent)/model%speed
-         if (allocated(model%guide_drag) .and. contact%is_touching) then
-            torques(of_guide) = model%guide_drag*model%speed*state%position%lift_slope**2
+         if (allocated(model%guide) .and. contact%is_touching) then
+            call find_guide_drag(model%guide, model%speed*state%position%lift_slope, drag, drag_slope)
+            torques(of_guide) = drag*model%speed*state%position%lift_slope**2
          end if
          if (allocated(model%joints)) then
             state%joints = no_joints

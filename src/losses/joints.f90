@@ -9,7 +9,7 @@ module camroller_joints
    implicit none
    private
 
-   public :: joints_t, set_joint_oil, jumps_with_valve, jumps_with_tip, has_sharp, has_curves, has_tip_curve
+   public :: joints_t, set_joint_oil, jumps_with_tip, has_sharp, has_curves, has_tip_curve
 
    !> Sliding joints
    type :: joints_t
@@ -36,17 +36,7 @@ contains
       if (allocated(joints%pivot)) call set_duty(joints%pivot%law, viscosity)
    end subroutine set_joint_oil
 
-   !> Does friction jump where the valve turns round, or the finger, which is the same place?
-   pure function jumps_with_valve(joints) result(jumps)
-      !> The joints
-      type(joints_t), intent(in) :: joints
-      !> Does it?
-      logical :: jumps
-
-      jumps = has_sharp(joints)
-   end function jumps_with_valve
-
-   !> Does the friction of any joint jump where its sliding turns round?
+   !> Does the friction of any joint jump where its sliding turns round? Valve and finger turn round in the same place.
    pure function has_sharp(joints) result(jumps)
       !> The joints
       type(joints_t), intent(in) :: joints

@@ -9,9 +9,11 @@ module camroller_limits_page
    implicit none
    private
 
-   public :: write_limits_page
+   public :: write_limits_page, unseen_limit
 
    character(len=*), parameter :: n = new_line("a")
+   !> What a search in steps may miss
+   character(len=*), parameter :: unseen_limit = "a limit that is passed and regained within a step is not seen"
    !> What stands in the place of a limit that the masses do not give
    character(len=*), parameter :: unknown = "unknown"
    !> Widths of the columns
@@ -55,7 +57,7 @@ contains
          text = text//n//"speeds in rev/min; the flexible train was tried at "//integer_text(search%done)// &
             & " speeds, in steps of "//number_text(search%step*per_minute, 5)//" and then to 1; contact of the rigid "// &
             & "train with the valve off its seat"//n// &
-            & "a limit that is passed and regained within a step is not seen: try a smaller --step"
+            & unseen_limit//": try a smaller --step"
          if (any(search%period == 0 .and. search%above <= search%highest)) text = text//n//"about: the turns of a motion "// &
             & "without a period differ, and others may pass the limit some tens of rev/min away"
       else

@@ -26,8 +26,11 @@ module camroller_cycle_remarks
    implicit none
    private
 
-   public :: judge_laws, judge_lobe
+   public :: judge_laws, judge_lobe, no_rigid_contact
 
+   !> What follows for a rigid train where cam and roller part
+   character(len=*), parameter :: no_rigid_contact = "; rigid kinematics does not hold there, and computed loads and friction "// &
+      & "are not realistic"
    !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
    !> Part of a cycle that is all of it but for rounding [-]
@@ -127,7 +130,7 @@ contains
          call write_speed(speed, model%crank_turns, 4, turns)
          text = text//"; it is lost above "//turns
       end if
-      text = text//"; rigid kinematics does not hold there, and computed loads and friction are not realistic"
+      text = text//no_rigid_contact
       if (model%stops_without_contact) then
          call raise(error, kind_domain, text//" (contact_policy = 'stop')")
       else

@@ -3,6 +3,7 @@
 !> In: fractions of a cycle, largest pressure, smallest film. Out: remarks, one per line.
 module camroller_film_remarks
    use camroller_bearing_asperity, only : thinnest_smooth_film
+   use camroller_bearing_remarks, only : smooth_law_fails
    use camroller_cam_angle, only : append_cam_angle, file_angle
    use camroller_cycle_shares, only : liquid_stress, shares_t, thinnest_ratio_allowed
    use camroller_kinds, only : wp
@@ -110,8 +111,8 @@ contains
 
       if (smallest >= thinnest_smooth_film*roughness) return
       call add_remark(remarks, rubbing_pin, "the film between roller and pin goes down to "//number_text(smallest/roughness, 2)// &
-         & " of their roughness; below about "//number_text(thinnest_smooth_film, 2)//" the law for smooth surfaces leaves the "// &
-         & "film load that asperities would carry, and the friction stated is too small", roughness/max(smallest, tiny(smallest)))
+         & " of their roughness; below about "//number_text(thinnest_smooth_film, 2)//" "//smooth_law_fails, &
+         & roughness/max(smallest, tiny(smallest)))
    end subroutine judge_pin
 
    !> Say that the film is next to nothing beside the roughness, that asperities touch beside the dry contact, that the film's shear

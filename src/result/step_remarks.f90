@@ -4,6 +4,7 @@
 module camroller_step_remarks
    use camroller_cam_angle, only : append_cam_angle, cam_angle_text
    use camroller_case, only : case_t
+   use camroller_cycle_remarks, only : no_rigid_contact
    use camroller_cycle_shares, only : thinnest_ratio_allowed
    use camroller_film, only : groups_t, group_count, group_values, law_table, published_range
    use camroller_film_range, only : group_names, outside_words
@@ -37,8 +38,7 @@ contains
          if (findings%is_lost) then
             text = ""
             call append_lost(text, findings%lost_angle)
-            if (.not. allocated(model%flexible)) text = text//"; rigid kinematics does not hold there, and computed loads and "// &
-               & "friction are not realistic"
+            if (.not. allocated(model%flexible)) text = text//no_rigid_contact
             call add_remark(remarks, lost_contact, text)
          end if
          if (findings%is_outside) then

@@ -23,8 +23,10 @@ module camroller_summary
    implicit none
    private
 
-   public :: make_summary
+   public :: make_summary, slip_meaning
 
+   !> What slip over a turn is, in a summary and in the table of an audit
+   character(len=*), parameter :: slip_meaning = "slip per cam revolution, relative to the turns of the roller in pure rolling"
    !> Harmonics of the drive torque that are listed
    integer, parameter :: most_harmonics = 12
 
@@ -288,9 +290,7 @@ contains
 
       sliding = means(find_quantity(result%series, trim(lobe_prefix(lobe))//"sliding_speed"))
       rolling = means(find_quantity(result%series, trim(lobe_prefix(lobe))//"rolling_speed"))
-      call add(list, trim(lobe_prefix(lobe))//"revolution_slip", "1", &
-         & "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller", sliding/rolling, &
-         & lobe_scope(lobe))
+      call add(list, trim(lobe_prefix(lobe))//"revolution_slip", "1", slip_meaning, "roller", sliding/rolling, lobe_scope(lobe))
       call add(list, trim(lobe_prefix(lobe))//"entrainment_reversals", "1", &
          & "times per cam revolution that the entrainment speed passes through zero in contact or stays there; the smallest "// &
          & "film is then that of a standstill", "film", real(statistics%standstills, wp), lobe_scope(lobe))

@@ -81,18 +81,9 @@ contains
       else if (any(temperatures < coldest)) then
          call raise(error, kind_usage, "advance: an oil temperature of "//number_text(minval(temperatures), 6)//" K is below "// &
             & "what any oil in an engine has; it is given in kelvin, 363.15 for 90 degC")
-      else if (start%has_pressure .neqv. finish%has_pressure) then
-         call raise(error, kind_usage, "advance: the gas pressure must be given at both ends of a step or at none")
-      else if (.not. start%has_pressure .and. any(is_given([start%gas_pressure, finish%gas_pressure]))) then
-         call raise(error, kind_usage, "advance: a gas_pressure is given and has_pressure says that it is not; set "// &
-            & "has_pressure at both ends, or leave gas_pressure at 0, and that of the case counts")
-      else if (start%has_pressure .and. .not. allocated(model%gas)) then
-         call raise(error, kind_usage, "advance: a gas pressure needs the valve's area; give the case a gas force, in a deck "// &
-            & "the group &gas_force")
-      else if (start%has_pressure .and. .not. all(ieee_is_finite([start%gas_pressure, finish%gas_pressure]))) then
-         call raise(error, kind_usage, "advance: the gas pressure must be finite at both ends of a step")
       else
-         call check_supply(model, start, finish, error)
+         call check_gas(model, start, finish, error)
+         if (.not. allocated(error)) call check_supply(model, start, finish, error)
       end if
       ! Where the oil has no viscosity is found before the step goes near it
       do i = 1, 2
@@ -101,6 +92,45 @@ contains
          call get_oil(model%lubricant, temperatures(i), oil, error)
       end do
    end subroutine check_inputs
+
+   !> Refuse gas pressures that cannot be.
+   subroutine check_gas(model, start, finish, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Inputs at both ends of a step
+      type(inputs_t), intent(in) :: start, finish
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_given("gas", "has_pressure", [start%has_pressure, finish%has_pressure], [start%gas_pressure, &
+         & finish%gas_pressure], error)
+      if (allocated(error) .or. .not. start%has_pressure) return
+      if (.not. allocated(model%gas)) then
+         call raise(error, kind_usage, "advance: a gas pressure needs the valve's area; give the case a gas force, in a deck "// &
+            & "the group &gas_force")
+      else if (.not. all(ieee_is_finite([start%gas_pressure, finish%gas_pressure]))) then
+         call raise(error, kind_usage, "advance: the gas pressure must be finite at both ends of a step")
+      end if
+   end subroutine check_gas
+
+   !> Refuse a pressure that is given at one end of a step alone, or against what its flag says.
+   subroutine check_given(kind, flag, is_flagged, pressures, error)
+      !> Which pressure, as its name begins, and the name of its flag
+      character(len=*), intent(in) :: kind, flag
+      !> The flag at both ends
+      logical, intent(in) :: is_flagged(2)
+      !> The pressure there [Pa]
+      real(wp), intent(in) :: pressures(2)
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (is_flagged(1) .neqv. is_flagged(2)) then
+         call raise(error, kind_usage, "advance: the "//kind//" pressure must be given at both ends of a step or at none")
+      else if (.not. is_flagged(1) .and. any(is_given(pressures))) then
+         call raise(error, kind_usage, "advance: a "//kind//"_pressure is given and "//flag//" says that it is not; set "// &
+            & flag//" at both ends, or leave "//kind//"_pressure at 0, and that of the case counts")
+      end if
+   end subroutine check_given
 
    !> Is a pressure other than the zero that it has by default?
    elemental function is_given(pressure) result(given)
@@ -123,15 +153,12 @@ contains
 
       logical :: has_adjuster
 
+      call check_given("supply", "has_supply", [start%has_supply, finish%has_supply], [start%supply_pressure, &
+         & finish%supply_pressure], error)
+      if (allocated(error) .or. .not. start%has_supply) return
       has_adjuster = .false.
       if (allocated(model%flexible)) has_adjuster = allocated(model%flexible%adjuster)
-      if (start%has_supply .neqv. finish%has_supply) then
-         call raise(error, kind_usage, "advance: the supply pressure must be given at both ends of a step or at none")
-      else if (.not. start%has_supply) then
-         if (any(is_given([start%supply_pressure, finish%supply_pressure]))) call raise(error, kind_usage, "advance: a "// &
-            & "supply_pressure is given and has_supply says that it is not; set has_supply at both ends, or leave "// &
-            & "supply_pressure at 0, and that of the case counts")
-      else if (.not. has_adjuster) then
+      if (.not. has_adjuster) then
          call raise(error, kind_usage, "advance: a supply pressure needs a hydraulic lash adjuster; give the case one, in a "// &
             & "deck the groups &dynamics and &lash_adjuster")
       else if (.not. all(is_within([start%supply_pressure, finish%supply_pressure], 0.0_wp, huge(1.0_wp)))) then

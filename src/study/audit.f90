@@ -13,6 +13,7 @@ module camroller_audit
    use camroller_run, only : build_models
    use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word
    use camroller_study_trial, only : trial_t, run_trial
+   use camroller_summary, only : slip_meaning
    implicit none
    private
 
@@ -43,7 +44,7 @@ contains
       call add_numbers(table, "status", "1", "0, or the kind of the error", "audit")
       call add_numbers(table, "mean_torque", "N m", "mean torque for all losses", "torque")
       call add_numbers(table, "minimum_film", "m", "smallest film", "film")
-      call add_numbers(table, "slip", "1", "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller")
+      call add_numbers(table, "slip", "1", slip_meaning, "roller")
       call add_numbers(table, "change_mean_torque", "1", "change of the mean torque relative to the value with all effects", &
          & "audit")
       call add_numbers(table, "change_minimum_film", "1", "change of the smallest film relative to the value with all effects", &

@@ -78,15 +78,7 @@ contains
       !> Its derivative with respect to H [-]
       real(wp), intent(out) :: slope
 
-      !> exp(-H^2/2) [-]
-      real(wp) :: decay
-
-      value = 0.0_wp
-      slope = 0.0_wp
-      if (film_ratio > largest_film_ratio) return
-      decay = exp(-0.5_wp*film_ratio**2)
-      value = decay*numerator(f2_top, film_ratio)/denominator(f2_bottom, film_ratio)
-      slope = -2.0_wp*decay*numerator(f1_top, film_ratio)/denominator(f1_bottom, film_ratio)
+      call evaluate(2.0_wp, film_ratio, f2_top, f2_bottom, f1_top, f1_bottom, value, slope)
    end subroutine integral_2
 
    !> F_5/2 and its derivative -5/2 F_3/2.
@@ -98,6 +90,18 @@ contains
       !> Its derivative with respect to H [-]
       real(wp), intent(out) :: slope
 
+      call evaluate(2.5_wp, film_ratio, f52_top, f52_bottom, f32_top, f32_bottom, value, slope)
+   end subroutine integral_5_2
+
+   !> F_n and its derivative -n F_(n - 1).
+   pure subroutine evaluate(order, film_ratio, top, bottom, lower_top, lower_bottom, value, slope)
+      !> n, and gap over roughness, H >= 0 [-]
+      real(wp), intent(in) :: order, film_ratio
+      !> Coefficients of F_n and of F_(n - 1) [-]
+      real(wp), intent(in) :: top(0:7), bottom(0:8), lower_top(0:7), lower_bottom(0:8)
+      !> F_n and its derivative with respect to H [-]
+      real(wp), intent(out) :: value, slope
+
       !> exp(-H^2/2) [-]
       real(wp) :: decay
 
@@ -105,9 +109,9 @@ contains
       slope = 0.0_wp
       if (film_ratio > largest_film_ratio) return
       decay = exp(-0.5_wp*film_ratio**2)
-      value = decay*numerator(f52_top, film_ratio)/denominator(f52_bottom, film_ratio)
-      slope = -2.5_wp*decay*numerator(f32_top, film_ratio)/denominator(f32_bottom, film_ratio)
-   end subroutine integral_5_2
+      value = decay*numerator(top, film_ratio)/denominator(bottom, film_ratio)
+      slope = -order*decay*numerator(lower_top, film_ratio)/denominator(lower_bottom, film_ratio)
+   end subroutine evaluate
 
    !> Polynomial of degree 7.
    pure function numerator(c, x) result(p)

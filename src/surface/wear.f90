@@ -9,7 +9,7 @@ module camroller_wear
    private
 
    public :: wear_t, time_in_contact, sliding_distance, worn_per_second
-   public :: largest_shear, largest_shear_depth, orthogonal_shear, orthogonal_shear_depth
+   public :: largest_shear, orthogonal_shear
 
    !> Specific wear rates: volume worn away over load and sliding distance
    type :: wear_t
@@ -17,11 +17,10 @@ module camroller_wear
       real(wp) :: cam_rate = 0.0_wp, roller_rate = 0.0_wp
    end type wear_t
 
-   !> Largest shear stress below a line contact over the peak pressure [-], and its depth over the half width [-]: the largest of
-   !> `z - z^2/sqrt(1 + z^2)`
-   real(wp), parameter :: largest_shear = 0.3002831060007776_wp, largest_shear_depth = 0.7861513777574233_wp
+   !> Largest shear stress below a line contact over the peak pressure: the largest of `z - z^2/sqrt(1 + z^2)` over the depth z [-]
+   real(wp), parameter :: largest_shear = 0.3002831060007776_wp
    !> The same of the amplitude of the shear stress along the surface, which changes its sign in a passage [-]
-   real(wp), parameter :: orthogonal_shear = 0.25_wp, orthogonal_shear_depth = 0.5_wp
+   real(wp), parameter :: orthogonal_shear = 0.25_wp
 
 contains
 

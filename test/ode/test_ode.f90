@@ -7,7 +7,7 @@ module test_ode
    use camroller_ode_problem, only : problem_t
    use camroller_ode_methods, only : method_facts, method_names, new_method
    use camroller_trajectory, only : trajectory_t, curve_slope, interpolate_state
-   use ode_problems, only : decay_t, power_t, pair_t, switch_t, wall_t, stable_methods
+   use ode_problems, only : known_t, pair, power, switch_t, wall_t, stable_methods
    implicit none
    private
 
@@ -61,12 +61,13 @@ contains
 
    subroutine test_order(error)
       type(error_type), allocatable, intent(out) :: error
-      type(pair_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       real(wp), allocatable :: state(:)
       real(wp) :: errors(2), order
       integer :: i, k
 
+      problem%kind = pair
       do i = 1, size(method_names)
          ! the first step is of another order; see ode_special
          if (method_names(i) == "hermite") cycle
@@ -84,13 +85,14 @@ contains
 
    subroutine test_curve(error)
       type(error_type), allocatable, intent(out) :: error
-      type(pair_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       real(wp), allocatable :: state(:)
       real(wp) :: errors(2), order, time
       character(len=*), parameter :: quartics(*) = [character(len=14) :: "rodas5p", "hermite", "dormand_prince"]
       integer :: i, k, n, hint
 
+      problem%kind = pair
       do i = 1, size(method_names)
          do k = 1, 2
             state = spread(1.0_wp, 1, min(2, method_facts(i)%max_components))
@@ -114,33 +116,34 @@ contains
 
    subroutine test_powers(error)
       type(error_type), allocatable, intent(out) :: error
-      type(power_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       real(wp) :: state(1)
       integer :: i
 
+      problem%kind = power
       do i = 1, size(method_names)
          state = 1.0_wp
-         problem%power = method_facts(i)%order
+         problem%degree = method_facts(i)%order
          ! of the order of its first step
-         if (method_names(i) == "hermite") problem%power = 4
+         if (method_names(i) == "hermite") problem%degree = 4
          call integrate_evenly(problem, method_names(i), 0.5_wp, [1.0_wp, 2.0_wp], state, trajectory)
          ! values up to 32; coefficients of tables reach 100 and are printed to 16 figures
-         call check(error, abs(state(1) - 2.0_wp**problem%power) < 1.0e4_wp*epsilon(1.0_wp), &
+         call check(error, abs(state(1) - 2.0_wp**problem%degree) < 1.0e4_wp*epsilon(1.0_wp), &
             & trim(method_names(i))//" misses its power")
          if (allocated(error)) return
          ! quadrature of some tables is one order better than the method
-         problem%power = method_facts(i)%order + 3
+         problem%degree = method_facts(i)%order + 3
          state = 1.0_wp
          call integrate_evenly(problem, method_names(i), 0.5_wp, [1.0_wp, 2.0_wp], state, trajectory)
-         call check(error, abs(state(1) - 2.0_wp**problem%power) > 1.0e-8_wp, "the test cannot fail")
+         call check(error, abs(state(1) - 2.0_wp**problem%degree) > 1.0e-8_wp, "the test cannot fail")
          if (allocated(error)) return
       end do
    end subroutine test_powers
 
    subroutine test_slow(error)
       type(error_type), allocatable, intent(out) :: error
-      type(decay_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       real(wp) :: state(1)
       integer :: i, k
@@ -160,7 +163,7 @@ contains
 
    subroutine test_disturbance(error)
       type(error_type), allocatable, intent(out) :: error
-      type(decay_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       real(wp) :: state(1)
       integer :: i, k
@@ -180,7 +183,7 @@ contains
 
    subroutine test_stiff_curve(error)
       type(error_type), allocatable, intent(out) :: error
-      type(decay_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       real(wp) :: state(1), worst, time
       integer :: i, n, hint
@@ -204,7 +207,7 @@ contains
 
    subroutine test_tolerance(error)
       type(error_type), allocatable, intent(out) :: error
-      type(decay_t) :: problem
+      type(known_t) :: problem
       class(method_t), allocatable :: method
       type(trajectory_t) :: trajectory
       type(options_t) :: options
@@ -232,7 +235,7 @@ contains
 
    subroutine test_stability(error)
       type(error_type), allocatable, intent(out) :: error
-      type(decay_t) :: problem
+      type(known_t) :: problem
       class(method_t), allocatable :: method
       type(trajectory_t) :: trajectory
       type(options_t) :: options
@@ -351,7 +354,7 @@ contains
 
    subroutine test_counters(error)
       type(error_type), allocatable, intent(out) :: error
-      type(pair_t) :: problem
+      type(known_t) :: problem
       class(method_t), allocatable :: method
       type(trajectory_t) :: trajectory
       type(options_t) :: options
@@ -361,6 +364,7 @@ contains
       real(wp), allocatable :: state(:)
       integer :: i
 
+      problem%kind = pair
       problem%calls => calls
       do i = 1, size(method_names)
          state = spread(1.0_wp, 1, min(2, method_facts(i)%max_components))
@@ -412,7 +416,7 @@ contains
       real(wp), intent(in) :: decay
       real(wp), intent(inout) :: state(:)
 
-      type(decay_t) :: problem
+      type(known_t) :: problem
       type(options_t) :: options
       type(counters_t) :: counters
       type(trajectory_t) :: trajectory
@@ -490,8 +494,7 @@ contains
       call integrate(problem, method, options, [0.0_wp, 1.0_wp], state, trajectory, counters, failure)
       call check(error, allocated(failure), trim(name)//" saw no failure")
       if (allocated(error)) return
-      call check(error, failure%kind == kind_convergence .and. index(failure%message, words) > 0, &
-         & trim(name)//": "//failure%message)
+      call check(error, failure%kind == kind_convergence .and. index(failure%message, words) > 0, trim(name)//": "//failure%message)
    end subroutine expect
 
 end module test_ode

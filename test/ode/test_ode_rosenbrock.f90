@@ -4,7 +4,7 @@ module test_ode_rosenbrock
    use camroller_kinds, only : wp
    use camroller_ode, only : counters_t
    use camroller_ode_rosenbrock, only : rosenbrock_method_t, new_rosenbrock_method
-   use ode_problems, only : pair_t
+   use ode_problems, only : known_t, pair
    implicit none
    private
 
@@ -139,12 +139,13 @@ contains
 
    subroutine test_differences(error)
       type(error_type), allocatable, intent(out) :: error
-      type(pair_t) :: problem
+      type(known_t) :: problem
       type(counters_t) :: counters
       real(wp) :: state(2), rate(2), jacobian(2, 2), slope(2), horizon
       integer :: status, k
       integer, target :: calls
 
+      problem%kind = pair
       calls = 0
       problem%calls => calls
       state = [1.3_wp, 0.7_wp]

@@ -8,7 +8,7 @@ module test_ode_special
    use camroller_ode_methods, only : new_method
    use camroller_phi, only : phi_functions
    use camroller_trajectory, only : trajectory_t, interpolate_state
-   use ode_problems, only : decay_t, line_t, bent_t, rough_t, pair_t, work_t
+   use ode_problems, only : known_t, line, bent, pair, work
    implicit none
    private
 
@@ -100,13 +100,14 @@ contains
 
    subroutine test_hermite_order(error)
       type(error_type), allocatable, intent(out) :: error
-      type(pair_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       type(counters_t) :: counters
       type(error_t), allocatable :: failure
       real(wp) :: state(1), errors(2)
       integer :: k
 
+      problem%kind = pair
       do k = 1, 2
          state = 1.0_wp
          call integrate_growing(problem, "hermite", 0.05_wp/2**(k - 1), 4.0_wp, state, trajectory, counters, failure)
@@ -120,13 +121,14 @@ contains
 
    subroutine test_hermite_linear(error)
       type(error_type), allocatable, intent(out) :: error
-      type(line_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       type(counters_t) :: counters
       type(error_t), allocatable :: failure
       real(wp) :: state(1), time, allowed
       integer :: k, n, hint
 
+      problem%kind = line
       do k = -1, 5
          problem%decay = 10.0_wp**k
          state = 1.0_wp
@@ -150,7 +152,7 @@ contains
 
    subroutine test_hermite_cost(error)
       type(error_type), allocatable, intent(out) :: error
-      type(decay_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       type(counters_t) :: counters
       type(error_t), allocatable :: failure
@@ -165,7 +167,7 @@ contains
 
    subroutine test_hermite_start(error)
       type(error_type), allocatable, intent(out) :: error
-      type(bent_t) :: problem
+      type(known_t) :: problem
       class(method_t), allocatable :: method
       type(options_t) :: options
       type(trajectory_t) :: trajectory
@@ -174,6 +176,7 @@ contains
       real(wp), parameter :: tolerance = 1.0e-6_wp
       real(wp) :: state(1), exact
 
+      problem%kind = bent
       problem%decay = 1000.0_wp
       call new_method(method, "hermite", 1, failure)
       options%tolerance = [tolerance]
@@ -188,13 +191,14 @@ contains
 
    subroutine test_hermite_integral(error)
       type(error_type), allocatable, intent(out) :: error
-      type(work_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       type(counters_t) :: counters
       type(error_t), allocatable :: failure
       real(wp) :: state(2), time, errors(2)
       integer :: i, k, n, hint
 
+      problem%kind = work
       do i = 0, 4
          problem%decay = 10.0_wp**i
          do k = 1, 2
@@ -230,7 +234,7 @@ contains
 
    subroutine test_rough(error)
       type(error_type), allocatable, intent(out) :: error
-      type(rough_t) :: problem
+      type(known_t) :: problem
       type(trajectory_t) :: trajectory
       type(counters_t) :: good, rough
       type(error_t), allocatable :: failure
@@ -254,7 +258,7 @@ contains
 
    subroutine test_no_convergence(error)
       type(error_type), allocatable, intent(out) :: error
-      type(rough_t) :: problem
+      type(known_t) :: problem
       class(method_t), allocatable :: method
       type(trajectory_t) :: trajectory
       type(options_t) :: options

@@ -7,7 +7,7 @@ module test_train
    use camroller_dynamics, only : train_t, moments_t, gas_force_t, seat_force, unseated_share, evaluate_moments, stored_energy
    use camroller_gas, only : gas_law_t, new_gas_law, gas_force
    use camroller_needle, only : needle_bearing_t, friction_radius, bearing_torque
-   use camroller_guide, only : guide_drag_coefficient
+   use camroller_guide, only : find_guide_drag, guide_drag_coefficient, guide_part_t, new_guide_part, set_guide_oil, valve_guide_t
    use camroller_roller, only : ring_inertia, spin_acceleration
    use camroller_torque, only : cam_torque, contact_power, normal_direction
    implicit none
@@ -227,9 +227,19 @@ contains
 
    subroutine test_guide(error)
       type(error_type), allocatable, intent(out) :: error
+      type(guide_part_t) :: part
+      ! Drag over the speed of the valve, its slope [N s/m]
+      real(wp) :: drag(3), slope(3)
 
       ! 0.1 pi 5e-3 0.04/2e-5 = pi
       call check(error, guide_drag_coefficient(0.1_wp, 0.04_wp, 5.0e-3_wp, 2.0e-5_wp), pi, thr=roundings, rel=.true.)
+      if (allocated(error)) return
+      call new_guide_part(part, valve_guide_t(length=0.04_wp, stem_diameter=5.0e-3_wp, radial_clearance=2.0e-5_wp))
+      call set_guide_oil(part, 0.2_wp)
+      call set_guide_oil(part, 0.1_wp)
+      ! A film's shear: at any speed the force pi v
+      call find_guide_drag(part, [-2.0_wp, 0.0_wp, 3.0_wp], drag, slope)
+      call check(error, all(abs([drag, slope] - pi) <= roundings*pi), "drag and slope of a film's shear")
    end subroutine test_guide
 
    subroutine test_torque(error)

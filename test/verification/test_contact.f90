@@ -4,6 +4,7 @@ module test_contact
    use camroller_kinds, only : wp, pi, degree
    use camroller_number_text, only : integer_text
    use camroller_case, only : case_t
+   use camroller_guide, only : find_guide_drag
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t, rotation_names
    use camroller_state, only : state_t, evaluate_state, cam_force
@@ -51,9 +52,14 @@ contains
       type(state_t), intent(in) :: state
       real(wp) :: excess
 
+      ! Speed of the valve [m/s]; drag over it, its slope [N s/m]
+      real(wp) :: valve_speed, drag, drag_slope
+
       excess = state%moments%total
-      if (allocated(model%guide_drag)) then
-         excess = excess + model%guide_drag*model%speed*state%position%lift_slope*state%position%valve_arm
+      if (allocated(model%guide)) then
+         valve_speed = model%speed*state%position%lift_slope
+         call find_guide_drag(model%guide, valve_speed, drag, drag_slope)
+         excess = excess + drag*valve_speed*state%position%valve_arm
       end if
       excess = state%contact%load*state%position%normal_arm - excess + model%linkage%sense &
          *(state%contact%tangential_force*state%position%tangent_arm + state%contact%bearing_torque)

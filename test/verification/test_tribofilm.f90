@@ -4,8 +4,7 @@ module test_tribofilm
    use camroller_cam_surface, only : cam_surface_t, meet_surfaces, meeting_t, place_angle, set_cam, value_at_angle
    use camroller_kinds, only : wp, two_pi
    use camroller_tribofilm, only : growth_rate, thickness_after, tribofilm_t
-   use camroller_wear, only : largest_shear, largest_shear_depth, orthogonal_shear, orthogonal_shear_depth, sliding_distance, &
-      & time_in_contact, worn_per_second
+   use camroller_wear, only : largest_shear, orthogonal_shear, sliding_distance, time_in_contact, worn_per_second
    implicit none
    private
 
@@ -90,13 +89,14 @@ contains
       call check(error, orthogonal <= orthogonal_shear + epsilon(1.0_wp) .and. orthogonal > orthogonal_shear - 2.0e-5_wp, &
          & "orthogonal shear")
       if (allocated(error)) return
-      z = largest_shear_depth
+      ! depth over the half width, from the zero of that slope
+      z = 0.7861513777574233_wp
       call check(error, abs(z - z**2/sqrt(1.0_wp + z**2) - largest_shear) < 1.0e-15_wp .and. abs(1.0_wp - z*(2.0_wp + z**2) &
          & /(1.0_wp + z**2)**1.5_wp) < 1.0e-14_wp, "it is at its depth, with a slope of zero")
       if (allocated(error)) return
       ! where x^2 = 1 - z^2 (1 + ...): sqrt(3)/2 from the middle
       x = sqrt(0.75_wp)
-      z = orthogonal_shear_depth
+      z = 0.5_wp
       s = sqrt((1.0_wp - x**2 + z**2)**2 + 4.0_wp*x**2*z**2)
       m2 = 0.5_wp*(s + 1.0_wp - x**2 + z**2)
       n2 = 0.5_wp*(s - (1.0_wp - x**2 + z**2))
