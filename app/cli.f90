@@ -157,7 +157,6 @@ contains
 
    !> An error where options are given together of which one would have no effect, or one twice.
    subroutine check_together(command, config, error)
-      !> The command
       type(command_t), intent(in) :: command
       !> What to do
       type(config_t), intent(in) :: config
@@ -245,7 +244,6 @@ contains
 
    !> An error where a file to be written would have no name, or that of the standard streams.
    subroutine check_output(command, config, error)
-      !> The command
       type(command_t), intent(in) :: command
       !> What to do
       type(config_t), intent(in) :: config
@@ -302,7 +300,6 @@ contains
    subroutine read_option(arguments, command, position, config, error)
       !> Words after the name of the program
       type(line_t), intent(in) :: arguments(:)
-      !> The command
       type(command_t), intent(in) :: command
       !> Position of the option; moved to its value
       integer, intent(inout) :: position

@@ -67,7 +67,6 @@ contains
 
    !> Commands that compute the cases of a deck, and `check`, which says what they come to.
    subroutine list_runs(commands)
-      !> The commands
       type(command_t), allocatable, intent(inout) :: commands(:)
 
       call add(commands, "run", "DECK", "compute and write an HDF5 file", &
@@ -131,7 +130,6 @@ contains
 
    !> Commands that measure, and the numerical film over the cycle.
    subroutine list_measurements(commands)
-      !> The commands
       type(command_t), allocatable, intent(inout) :: commands(:)
 
       call add(commands, "study", "DECK", "measure what accuracy costs", &
@@ -185,7 +183,6 @@ contains
 
    !> Commands that print.
    subroutine list_texts(commands)
-      !> The commands
       type(command_t), allocatable, intent(inout) :: commands(:)
 
       call add(commands, "defaults", "[GROUP]", "print a complete deck with every key explained", &
@@ -228,7 +225,6 @@ contains
 
    !> Append a command; every command takes `--help`.
    subroutine add(commands, name, subject, summary, description)
-      !> The commands
       type(command_t), allocatable, intent(inout) :: commands(:)
       !> Name, what it is about, a few words, what it does
       character(len=*), intent(in) :: name, subject, summary, description
@@ -250,7 +246,6 @@ contains
 
    !> Append an option to the last command.
    subroutine add_option(commands, name, short, value, meaning, excluded, may_be_repeated)
-      !> The commands
       type(command_t), intent(inout) :: commands(:)
       !> Long name, short name, what its value is, meaning; what follows is added to it
       character(len=*), intent(in) :: name, short, value, meaning
@@ -353,7 +348,6 @@ contains
 
    !> A text made as long as the column before a meaning.
    pure function padded(text) result(long)
-      !> The text
       character(len=*), intent(in) :: text
       !> With blanks behind, at least one
       character(len=max(meaning_column, len(text) + 1)) :: long

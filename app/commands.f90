@@ -263,7 +263,6 @@ contains
    subroutine show_case(config, deck, error)
       !> What to do
       type(config_t), intent(in) :: config
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> File or deck error
       type(error_t), allocatable, intent(out) :: error
@@ -348,7 +347,6 @@ contains
 
    !> Print which effects the cases need, where the deck leaves that to the program.
    subroutine check_effects(deck, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
@@ -394,7 +392,6 @@ contains
 
    !> Number of cases, and the grid they make up.
    function cases_in_words(deck) result(words)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> The words
       character(len=:), allocatable :: words
@@ -415,7 +412,6 @@ contains
 
    !> Effects that are in a deck, or those that are not.
    function effects_in_words(deck, are_present) result(words)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Those that are there?
       logical, intent(in) :: are_present

@@ -80,7 +80,6 @@ contains
 
    !> Has a signal asked for an end?
    function wants_stop(self) result(verdict)
-      !> The console
       class(console_t), intent(inout) :: self
       !> Has it?
       logical :: verdict
@@ -91,7 +90,6 @@ contains
 
    !> Say something about the computation.
    subroutine say(self, text, is_loss)
-      !> The console
       class(console_t), intent(inout) :: self
       !> Lines without the end of the last one
       character(len=*), intent(in) :: text
@@ -103,7 +101,6 @@ contains
 
    !> Say how far the run is: a few times a second on a terminal.
    subroutine show(self, done, total)
-      !> The console
       class(console_t), intent(inout) :: self
       !> Cases done, and all cases
       integer, intent(in) :: done, total
@@ -158,7 +155,6 @@ contains
 
    !> Take the line away.
    subroutine end_cases(self)
-      !> The console
       class(console_t), intent(inout) :: self
 
       if (self%is_shown) call tell(achar(13)//repeat(" ", width)//achar(13))

@@ -120,7 +120,6 @@ contains
 
    !> Solve, write and report every case.
    subroutine solve_cases(deck, is_quiet, writer, file, lines, unheard, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Print nothing?
       logical, intent(in) :: is_quiet
@@ -227,7 +226,6 @@ contains
 
    !> Remarks on groups of a case that solved contacts leave out.
    subroutine judge_parts(case, remarks)
-      !> The case
       type(case_t), intent(in) :: case
       !> Remarks on it so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
@@ -241,7 +239,6 @@ contains
 
    !> Remarks on what the film has no part in: contact, the pivot's joint, the valve's seat.
    subroutine judge_forces(model, lobe, remarks, error)
-      !> The model
       type(model_t), intent(in) :: model
       !> Lobe shape to be named; 0 where there is one alone
       integer, intent(in) :: lobe
@@ -266,9 +263,7 @@ contains
 
    !> Remarks on the solved film: its pressure, its thickness beside the roughness, its traction.
    subroutine judge_solution(model, cycle, lobe, remarks)
-      !> The model
       type(model_t), intent(in) :: model
-      !> The cycle
       type(ehl_cycle_t), intent(in) :: cycle
       !> Lobe shape to be named; 0 where there is one alone
       integer, intent(in) :: lobe

@@ -52,7 +52,6 @@ contains
    subroutine compare_lobe(sink, deck, number, is_second, differs, error)
       !> The file and what differs
       type(comparison_sink_t), intent(inout) :: sink
-      !> Its deck
       type(deck_t), intent(in) :: deck
       !> Number of the case, from 1
       integer, intent(in) :: number

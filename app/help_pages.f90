@@ -44,7 +44,6 @@ contains
 
    !> A text for a manual page: no line of it is taken for an instruction, and dashes stay dashes.
    pure function escaped(text) result(page)
-      !> The text
       character(len=*), intent(in) :: text
       !> The same for `man`
       character(len=:), allocatable :: page

@@ -68,7 +68,6 @@ contains
 
    !> Tell that a study takes all effects of a deck.
    subroutine tell_choice(deck)
-      !> The deck
       type(deck_t), intent(in) :: deck
 
       if (get_word(deck%settings, "effects", "select") == select_names(select_needed)) call tell("remark: effects.select = '"// &
@@ -78,7 +77,6 @@ contains
 
    !> Print what each film law makes of the cases.
    subroutine show_laws(deck, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Deck error of a case, file error of the output unit; the first failure where there are several
       type(error_t), allocatable, intent(out) :: error
@@ -214,7 +212,6 @@ contains
 
    !> Measure every case.
    subroutine measure_cases(deck, config, what, progress, table, tally)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> What to do
       type(config_t), intent(in) :: config
@@ -222,7 +219,6 @@ contains
       integer, intent(in) :: what
       !> How far the command is
       type(console_t), intent(inout) :: progress
-      !> The table
       type(study_table_t), intent(out) :: table
       !> What happened to the cases
       type(tally_t), intent(out) :: tally
@@ -254,7 +250,6 @@ contains
    subroutine count_case(tally, deck, number, failure)
       !> What happened to the cases so far
       type(tally_t), intent(inout) :: tally
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Number of the case, from 1
       integer, intent(in) :: number

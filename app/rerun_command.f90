@@ -114,9 +114,7 @@ contains
    subroutine read_stored_deck(file, path, deck, error)
       !> The file, open
       type(hdf5_object_t), intent(in) :: file
-      !> Its path
       character(len=*), intent(in) :: path
-      !> The deck
       type(deck_t), intent(out) :: deck
       !> File or deck error
       type(error_t), allocatable, intent(out) :: error
@@ -151,7 +149,6 @@ contains
    subroutine read_overrides(file, path, overrides, error)
       !> The file, open
       type(hdf5_object_t), intent(in) :: file
-      !> Its path
       character(len=*), intent(in) :: path
       !> The values
       type(override_t), allocatable, intent(out) :: overrides(:)
@@ -258,7 +255,6 @@ contains
    subroutine choose_series(file, deck, loop, error)
       !> The file, open
       type(hdf5_object_t), intent(in) :: file
-      !> Its deck
       type(deck_t), intent(in) :: deck
       !> Gets the choice
       type(loop_t), intent(inout) :: loop

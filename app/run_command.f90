@@ -95,7 +95,6 @@ contains
 
    !> Show remarks on the deck, and on what a sweep does not use of it.
    subroutine tell_sweep_remarks(deck)
-      !> The deck
       type(deck_t), intent(in) :: deck
 
       call tell_deck_remarks(deck)
@@ -201,7 +200,6 @@ contains
    subroutine conclude(config, deck, console, report, failure, error)
       !> What to do
       type(config_t), intent(in) :: config
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Start of the command
       type(console_t), intent(in) :: console

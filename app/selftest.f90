@@ -77,11 +77,9 @@ contains
 
    !> One operating point.
    subroutine run_point(deck, speed, temperature, result, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Speed and temperature as in a deck
       character(len=*), intent(in) :: speed, temperature
-      !> Its result
       type(result_t), intent(out) :: result
       !> What went wrong
       type(error_t), allocatable, intent(out) :: error

@@ -103,7 +103,6 @@ contains
 
    !> Memory of the longest value that varies, which the result file has for all cases in one piece.
    pure function widest_value(sweep) result(bytes)
-      !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Memory [byte]
       real(wp) :: bytes
@@ -130,7 +129,6 @@ contains
    !> Run a few cases. A flexible train may take a minute where it has no period or a part of no engine: it is run with a larger
    !> tolerance, whose steps are fewer by the fifth root of it.
    subroutine try_cases(deck, with_profiles, cost)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Are profiles kept, where a case asks for them?
       logical, intent(in) :: with_profiles

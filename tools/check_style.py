@@ -5,7 +5,8 @@ Usage: tools/check_style.py [--root DIR]
 
 Everywhere: no name after `only` that stands nowhere else, files within 500 lines, procedures within 60 lines of code (`only` itself,
 `implicit none`, width of lines, tabs and blanks at their ends are the linter's). In src and app: one module a file, named after it
-with our prefix, `private` at its top, a unit in brackets on every real declaration, and no write into a text, which ends the program where the
+with our prefix, `private` at its top, a unit in brackets on every real declaration, no comment on an argument of a private procedure that only
+repeats its name or type, and no write into a text, which ends the program where the
 text is too short (src/base/number_text.f90 has the routines for that; a unit is known by its name, `...unit` or `*`); no print and
 no unit for output or errors, whose text is lost without an error where the disk is full (src/files/streams.f90 has the routines for that).
 In src: no stop. In src but for the folders that write results, threads run side by side: no function whose text has the length it finds, since gfortran
@@ -41,6 +42,9 @@ UNIT_NUMBER = re.compile(r"^(?:[\w%]*unit|\*|\d+)\s*$")
 IMPORTS = re.compile(r"^use\b.*\bonly\s*:\s*(.*)$")
 # What stands before the kind of a number
 DIGITS = re.compile(r"\b\d[\d.]*_(?=[a-z])")
+# An argument that is no real; words of a comment that say nothing
+ARGUMENT = re.compile(r"^(?:(?:type|class)\s*\((\w+)\)|integer|logical|character\s*\([^)]*\)).*\bintent\b.*::\s*(\w+)(?:\(.*\))?$")
+ARTICLES = {"a", "an", "the", "its"}
 EXCUSE = re.compile(r"style:\s*(\w+)\s+because\s+\S")
 
 
@@ -112,6 +116,25 @@ def check_units(report: Report, code: list[Statement]) -> None:
         last_line = statement.last_line
         if not UNIT.search(statement.comment + shared):
             report.add(statement.line, "unit", "a real without its unit in brackets")
+
+
+def check_echoes(report: Report, code: list[Statement]) -> None:
+    """No comment of one line on an argument of a private procedure whose words are those of the argument's name or type alone."""
+    public = {name for s in code if s.text.startswith("public") for name in re.findall(r"\w+", s.text)}
+    inside: list[str] = []
+    for statement in code:
+        if END_PROCEDURE.match(statement.text) and inside:
+            inside.pop()
+        elif not statement.text.startswith("end") and (match := PROCEDURE.match(statement.text)):
+            inside.append(match[2])
+        if not inside or public.intersection(inside) or not (match := ARGUMENT.match(statement.text)):
+            continue
+        above = [line.strip() for line in report.lines[max(statement.line - 3, 0):statement.line - 1]]
+        if above[-1].startswith("!> ") and not above[0].startswith("!"):
+            said = set(re.findall(r"[a-z0-9]+", above[-1].lower())) - ARTICLES
+            known = set(re.findall(r"[a-z0-9]+", f"{match[1]} {match[2]}".replace("_", " ")))
+            if {word.removesuffix("s") for word in said} <= {word.removesuffix("s") for word in known}:
+                report.add(statement.line - 1, "echo", "a comment that repeats the name or type of an argument")
 
 
 def check_statements(report: Report, code: list[Statement], folder: str) -> None:
@@ -186,6 +209,7 @@ def check_file(path: pathlib.Path, root: pathlib.Path) -> list[str]:
     check_units_of_program(report, code, path, folder)
     if folder in ("src", "app"):
         check_units(report, code)
+        check_echoes(report, code)
     if folder == "src" and len(short.parts) > 2 and short.parts[1] not in ONE_THREAD:
         check_lengths(report, code)
     return report.faults

@@ -154,7 +154,6 @@ contains
       integer, intent(in) :: list(:)
       !> The factors, in its first rows and columns, one more than slices count [-]
       real(wp), intent(inout) :: matrix(:, :)
-      !> Pivots
       integer, intent(out) :: pivots(:)
       !> 0 fine, other: the matrix is singular
       integer, intent(out) :: info

@@ -14,7 +14,6 @@ contains
 
    !> Length of the known name that a word was probably meant to be.
    pure function nearest_length(word, known) result(length)
-      !> The word
       character(len=*), intent(in) :: word
       !> The known names
       character(len=*), intent(in) :: known(:)
@@ -42,7 +41,6 @@ contains
 
    !> Position of the known name that a word was probably meant to be; 0 where none is near.
    pure function nearest_position(word, known) result(nearest)
-      !> The word
       character(len=*), intent(in) :: word
       !> The known names
       character(len=*), intent(in) :: known(:)

@@ -54,7 +54,6 @@ contains
    pure function rounded_length(value, digits) result(length)
       !> The number [any unit]
       real(wp), intent(in) :: value
-      !> Digits
       integer, intent(in) :: digits
       !> Characters
       integer :: length
@@ -406,7 +405,6 @@ contains
 
    !> Step over a sign.
    pure subroutine skip_sign(word, position)
-      !> The word
       character(len=*), intent(in) :: word
       !> Place in it
       integer, intent(inout) :: position
@@ -417,7 +415,6 @@ contains
 
    !> Step over digits and count them.
    pure subroutine skip_digits(word, position, digits)
-      !> The word
       character(len=*), intent(in) :: word
       !> Place in it
       integer, intent(inout) :: position
@@ -434,7 +431,6 @@ contains
 
    !> Step over the digits after a point and add them to a count.
    pure subroutine skip_fraction(word, position, digits)
-      !> The word
       character(len=*), intent(in) :: word
       !> Place in it
       integer, intent(inout) :: position

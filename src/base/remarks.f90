@@ -123,7 +123,6 @@ contains
 
    !> Length of the lines of remarks.
    pure function lines_length(remarks) result(length)
-      !> The remarks
       type(remark_t), intent(in) :: remarks(:)
       !> The length, with what is between them
       integer :: length

@@ -138,7 +138,6 @@ contains
    pure subroutine raise(dimension, power)
       !> The unit, changed
       type(dimension_t), intent(inout) :: dimension
-      !> The power
       integer, intent(in) :: power
 
       dimension%exponents = power*dimension%exponents

@@ -172,7 +172,6 @@ contains
    subroutine work(loop, deck, runs, sink, team, monitor)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Cases to be computed
       type(runs_t), intent(in) :: runs
@@ -286,7 +285,6 @@ contains
    subroutine compute_run(loop, deck, first, count, kept, sink, monitor, is_over)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> First case, from 1, and number of cases
       integer, intent(in) :: first, count
@@ -336,7 +334,6 @@ contains
 
    !> Compute one case.
    subroutine compute_case(deck, number, with_series, with_profiles, kept, computed)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Number of the case, from 1
       integer, intent(in) :: number
@@ -404,7 +401,6 @@ contains
       type(loop_t), intent(inout), target :: loop
       !> Where the cases go
       class(sink_t), intent(inout), target :: sink
-      !> The result
       type(result_t), intent(in) :: result
       !> The number
       integer, intent(out) :: layout
@@ -425,7 +421,6 @@ contains
       class(sink_t), intent(inout), target :: sink
       !> Who follows it
       class(monitor_t), intent(inout), target :: monitor
-      !> The record
       type(record_t), intent(inout) :: record
       !> Number of cases in it, and their layout
       integer, intent(in) :: count, layout
@@ -449,7 +444,6 @@ contains
    subroutine note_error(loop, error)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
-      !> The error
       type(error_t), intent(in) :: error
 
       if (.not. allocated(loop%error)) loop%error = error

@@ -44,7 +44,6 @@ contains
 
    !> Take a layout that comes for the first time.
    subroutine ignore_layout(self, layout, error)
-      !> The sink
       class(sink_t), intent(inout) :: self
       !> The layout; it is in the sink's list
       type(layout_t), intent(in) :: layout
@@ -58,7 +57,6 @@ contains
 
    !> Take a run of cases: one after the other.
    subroutine take_each(self, record, error)
-      !> The sink
       class(sink_t), intent(inout) :: self
       !> The cases
       type(record_t), intent(inout) :: record
@@ -82,7 +80,6 @@ contains
 
    !> Take a case.
    subroutine ignore_case(self, number, outcome, layout, error)
-      !> The sink
       class(sink_t), intent(inout) :: self
       !> Number of the case, from 1
       integer, intent(in) :: number

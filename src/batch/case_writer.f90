@@ -81,7 +81,6 @@ contains
    subroutine announce(self, layout, error)
       !> The sink
       class(case_writer_t), intent(inout) :: self
-      !> The layout
       type(layout_t), intent(in) :: layout
       !> File error
       type(error_t), allocatable, intent(out) :: error

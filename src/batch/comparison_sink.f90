@@ -57,9 +57,7 @@ contains
 
    !> Take a layout; its quantities have to be in the file.
    subroutine announce(self, layout, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
-      !> The layout
       type(layout_t), intent(in) :: layout
       !> Usage error where the file has other quantities
       type(error_t), allocatable, intent(out) :: error
@@ -78,7 +76,6 @@ contains
 
       !> An error where the file does not have a quantity.
       subroutine demand(name)
-         !> Its name
          character(len=*), intent(in) :: name
 
          if (allocated(error)) return
@@ -90,7 +87,6 @@ contains
 
    !> Compare a run of cases.
    subroutine keep(self, record, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> The cases
       type(record_t), intent(inout) :: record
@@ -127,7 +123,6 @@ contains
 
    !> Number of true values.
    pure function count_true(values) result(number)
-      !> The values
       logical, intent(in) :: values(:)
       !> How many are true
       integer :: number
@@ -137,11 +132,9 @@ contains
 
    !> Compare what became of the cases.
    subroutine compare_statuses(self, first, outcomes, differs, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> First case, from 1
       integer, intent(in) :: first
-      !> The cases
       type(case_outcome_t), intent(in) :: outcomes(:)
       !> Cases that differ
       logical, intent(inout) :: differs(:)
@@ -166,7 +159,6 @@ contains
 
    !> List the scalars and the series that the file has.
    subroutine list_stored(self, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -216,11 +208,9 @@ contains
 
    !> Compare messages of cases without a result, remarks of the others, and why effects take part in them or not.
    subroutine compare_words(self, first, outcomes, agrees, differs, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> First case, from 1
       integer, intent(in) :: first
-      !> The cases
       type(case_outcome_t), intent(in) :: outcomes(:)
       !> Cases whose status is that in the file, which alone are compared
       logical, intent(in) :: agrees(:)
@@ -261,11 +251,9 @@ contains
 
    !> Compare scalars: those of the file, which has all that are computed.
    subroutine compare_summaries(self, first, outcomes, quantities, agrees, differs, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> First case, from 1
       integer, intent(in) :: first
-      !> The cases
       type(case_outcome_t), intent(in) :: outcomes(:)
       !> Their scalars
       type(quantity_t), intent(in) :: quantities(:)
@@ -303,7 +291,6 @@ contains
 
    !> Where a scalar is in a result file.
    pure function place_of(scalar) result(place)
-      !> The scalar
       type(quantity_t), intent(in) :: scalar
       !> Its name with its group
       character(len=:), allocatable :: place
@@ -313,11 +300,9 @@ contains
 
    !> Compare series, of cases that have some and of cases without a result, which must have none.
    subroutine compare_series(self, first, outcomes, layout, agrees, differs, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> First case, from 1
       integer, intent(in) :: first
-      !> The cases
       type(case_outcome_t), intent(in) :: outcomes(:)
       !> Their layout
       type(layout_t), intent(in) :: layout
@@ -369,11 +354,9 @@ contains
 
    !> Compare what is listed over hours of running or turns.
    subroutine compare_histories(self, first, outcomes, layout, differs, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> First case, from 1
       integer, intent(in) :: first
-      !> The cases
       type(case_outcome_t), intent(in) :: outcomes(:)
       !> Their layout
       type(layout_t), intent(in) :: layout
@@ -400,11 +383,9 @@ contains
 
    !> Compare profiles across the contact, of cases that have some or should have some.
    subroutine compare_profiles(self, first, outcomes, differs, error)
-      !> The sink
       class(comparison_sink_t), intent(inout) :: self
       !> First case, from 1
       integer, intent(in) :: first
-      !> The cases
       type(case_outcome_t), intent(in) :: outcomes(:)
       !> Cases that differ
       logical, intent(inout) :: differs(:)

@@ -64,7 +64,6 @@ contains
    subroutine compare_study(file, facts, earlier, error)
       !> The file, open
       type(hdf5_object_t), intent(in) :: file
-      !> The study
       type(study_facts_t), intent(in) :: facts
       !> Gets the difference from a result of this study; empty where there is none
       type(earlier_t), intent(inout) :: earlier

@@ -34,9 +34,7 @@ contains
 
    !> Write a layout.
    subroutine announce(self, layout, error)
-      !> The sink
       class(part_sink_t), intent(inout) :: self
-      !> The layout
       type(layout_t), intent(in) :: layout
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -47,7 +45,6 @@ contains
 
    !> Write a run of cases; its layout is counted from the first one of the file.
    subroutine keep(self, record, error)
-      !> The sink
       class(part_sink_t), intent(inout) :: self
       !> The cases
       type(record_t), intent(inout) :: record

@@ -94,7 +94,6 @@ contains
    subroutine write_columns(writer, sweep, error)
       !> The result file
       type(output_t), intent(inout) :: writer
-      !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -119,7 +118,6 @@ contains
    subroutine write_beside(writer, deck, error)
       !> The result file
       type(output_t), intent(inout) :: writer
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -145,7 +143,6 @@ contains
       type(output_t), intent(inout) :: writer
       !> What they are called in the file
       character(len=*), intent(in) :: name
-      !> The lines
       type(line_t), intent(in) :: lines(:)
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -166,9 +163,7 @@ contains
    subroutine write_tables(writer, deck, group, error)
       !> The result file
       type(output_t), intent(inout) :: writer
-      !> The deck
       type(deck_t), intent(in) :: deck
-      !> The group
       character(len=*), intent(in) :: group
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -198,7 +193,6 @@ contains
    subroutine write_build(writer, facts, error)
       !> The result file
       type(output_t), intent(inout) :: writer
-      !> The study
       type(study_facts_t), intent(in) :: facts
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -263,7 +257,6 @@ contains
 
    !> Number of values of a column and a checksum of them, where it has any: of numbers as such, however they are spelt.
    subroutine add_values(column, prefix, facts)
-      !> The column
       type(sweep_axis_t), intent(in) :: column
       !> What its name begins with
       character(len=*), intent(in) :: prefix
@@ -293,7 +286,6 @@ contains
 
    !> Compiler options that may change a number: each once, without folders.
    subroutine shorten_options(options)
-      !> The options
       character(len=:), allocatable, intent(inout) :: options
 
       character(len=*), parameter :: with_folder(*) = [character(len=2) :: "-I", "-J"]
@@ -326,9 +318,7 @@ contains
 
    !> Checksums of the tables that a group names in the deck or in any of its cases, a line of text for each.
    subroutine add_tables(deck, group, text)
-      !> The deck
       type(deck_t), intent(in) :: deck
-      !> The group
       character(len=*), intent(in) :: group
       !> Text to add to
       character(len=:), allocatable, intent(inout) :: text
@@ -353,7 +343,6 @@ contains
 
    !> Checksum of a table as a line of text.
    subroutine add_table(deck, group, name, text)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Group that names the table
       character(len=*), intent(in) :: group

@@ -103,7 +103,6 @@ contains
 
    !> What is computed, and where to.
    subroutine begin_study(deck, path, options, study, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Path of the result file, which must not be one that the deck is read from
       character(len=*), intent(in) :: path
@@ -145,7 +144,6 @@ contains
 
    !> Compute the cases one after the other, straight into the result file. Where none has a result, there is no file.
    subroutine write_directly(deck, study, monitor, team, report, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> What is computed
       type(study_t), intent(in) :: study
@@ -190,7 +188,6 @@ contains
 
    !> Compute the cases that no part file has, and make the result file where then all are there.
    subroutine run_in_parts(deck, options, study, monitor, team, report, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> How
       type(sweep_options_t), intent(in) :: options
@@ -305,7 +302,6 @@ contains
 
    !> Compute what is to be computed, into the part file of this process.
    subroutine compute(deck, options, study, monitor, team, loop, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> How
       type(sweep_options_t), intent(in) :: options
@@ -359,7 +355,6 @@ contains
 
    !> Make the result file where everything is done; say what is not.
    subroutine finish(deck, options, study, ended, monitor, report, error)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> How
       type(sweep_options_t), intent(in) :: options

@@ -176,7 +176,6 @@ contains
    subroutine join_parts(study, deck, options, is_merge, monitor, report, error)
       !> What is computed
       type(study_t), intent(in) :: study
-      !> Its deck
       type(deck_t), intent(in) :: deck
       !> How
       type(sweep_options_t), intent(in) :: options
@@ -266,7 +265,6 @@ contains
    subroutine write_result(study, deck, is_resumed, index, paths, monitor, report, error)
       !> What is computed
       type(study_t), intent(in) :: study
-      !> Its deck
       type(deck_t), intent(in) :: deck
       !> Does the user want what is there to be continued?
       logical, intent(in) :: is_resumed

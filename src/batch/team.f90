@@ -26,7 +26,6 @@ contains
 
    !> Begin to give cases out; all processes call it.
    subroutine reset_alone(self)
-      !> The team
       class(team_t), intent(inout) :: self
 
       self%given = 0
@@ -34,7 +33,6 @@ contains
 
    !> Take cases that no other process has.
    subroutine take_alone(self, wanted, position)
-      !> The team
       class(team_t), intent(inout) :: self
       !> How many
       integer, intent(in) :: wanted
@@ -47,7 +45,6 @@ contains
 
    !> Give all processes what the first one has; all processes call it.
    subroutine share_alone(self, numbers)
-      !> The team
       class(team_t), intent(inout) :: self
       !> Integers, those of the first process on return
       integer, allocatable, intent(inout) :: numbers(:)
@@ -58,7 +55,6 @@ contains
 
    !> Largest number of all processes; all of them call it and wait for each other.
    subroutine largest_alone(self, number)
-      !> The team
       class(team_t), intent(inout) :: self
       !> A number, the largest one on return
       integer, intent(inout) :: number

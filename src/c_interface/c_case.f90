@@ -392,7 +392,6 @@ contains
       type(c_ptr), value, intent(in) :: handle
       !> 0 for series, 1 for scalars
       integer(c_int), value, intent(in) :: kind
-      !> Its number
       integer(c_size_t), value, intent(in) :: number
       !> Buffers for name, unit and meaning; NULL, each or all, takes nothing
       type(c_ptr), intent(in), optional :: texts(3)

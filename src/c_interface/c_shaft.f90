@@ -88,7 +88,6 @@ contains
       type(c_ptr), intent(in) :: place
       !> The shaft; freed where there is an error
       type(shaft_handle_t), pointer, intent(inout) :: made
-      !> Its case
       type(case_t), intent(in) :: case
       !> The error, if any
       type(error_t), allocatable, intent(in) :: error

@@ -151,7 +151,6 @@ contains
       type(c_ptr), value, intent(in) :: handle
       !> The cam, from 1; 0 for the camshafts
       integer(c_int), value, intent(in) :: cam
-      !> The name
       type(c_ptr), value, intent(in) :: name
       !> Gets the number
       type(c_ptr), value, intent(in) :: value
@@ -270,7 +269,6 @@ contains
 
    !> Refuse a cam that the shaft has not.
    subroutine check_cam(given, cam, smallest, error)
-      !> The shaft
       type(shaft_handle_t), intent(in) :: given
       !> The cam, and the smallest number that is allowed
       integer, intent(in) :: cam, smallest
@@ -283,7 +281,6 @@ contains
 
    !> Refuse a shaft that has no step behind it.
    subroutine check_stepped(given, error)
-      !> The shaft
       type(shaft_handle_t), intent(in) :: given
       !> Usage error
       type(error_t), allocatable, intent(out) :: error

@@ -168,7 +168,6 @@ contains
 
    !> Torque and flow of oil of a bearing at a cam angle.
    subroutine sample_bearing(self, x, values, error)
-      !> The bearing
       class(bearing_means_t), intent(inout) :: self
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: x
@@ -191,7 +190,6 @@ contains
 
    !> Torque and flow of oil of a bearing under a load.
    subroutine find_losses(shaft, turn, on_orbit, angle, load, hint, torque, flow, error)
-      !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> The bearing with its oil and orbit
       type(bearing_turn_t), intent(in) :: turn

@@ -153,7 +153,6 @@ contains
 
    !> Say that a film is too thin for smooth surfaces.
    subroutine add_rubbing(films, has_asperities, remarks)
-      !> The films
       type(thin_films_t), intent(in) :: films
       !> Do asperities share the load?
       logical, intent(in) :: has_asperities
@@ -260,7 +259,6 @@ contains
 
    !> Length of the words on others.
    pure function others_length(films) result(length)
-      !> The films
       type(thin_films_t), intent(in) :: films
       !> The length
       integer :: length
@@ -271,7 +269,6 @@ contains
 
    !> Words on other bearings that are below a limit as well.
    pure function others_in_words(films) result(words)
-      !> The films
       type(thin_films_t), intent(in) :: films
       !> The words, to follow others
       character(len=others_length(films)) :: words

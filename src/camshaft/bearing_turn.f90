@@ -104,7 +104,6 @@ contains
       type(solved_t), intent(in), target :: solved
       !> Bearing and camshaft
       integer, intent(in) :: bearing, k
-      !> The load
       type(cams_load_t), intent(out) :: load
 
       load%solved => solved
@@ -145,9 +144,7 @@ contains
 
    !> Orbit of a bearing's journal, where the case has such.
    subroutine follow_journal(case, shaft, load, turn, error)
-      !> The case
       type(case_t), intent(in) :: case
-      !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> What loads the bearing
       class(bearing_load_t), intent(in) :: load
@@ -162,9 +159,7 @@ contains
 
    !> Temperature of a bearing's oil.
    subroutine find_temperature(case, shaft, heat, load, turn, error)
-      !> The case
       type(case_t), intent(in) :: case
-      !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> What is given about heat
       type(bearing_heat_t), intent(in) :: heat
@@ -194,9 +189,7 @@ contains
 
    !> Rise of temperature at which the oil carries the friction of the means away.
    subroutine balance_heat(case, shaft, heat, load, turn, error)
-      !> The case
       type(case_t), intent(in) :: case
-      !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> What is given about heat
       type(bearing_heat_t), intent(in) :: heat
@@ -267,9 +260,7 @@ contains
 
    !> The bearing with its oil, and the orbit, at its rise of temperature.
    subroutine warm_bearing(case, shaft, load, turn, error)
-      !> The case
       type(case_t), intent(in) :: case
-      !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> What loads the bearing
       class(bearing_load_t), intent(in) :: load

@@ -144,9 +144,7 @@ contains
 
    !> What each bearing carries of the force on each cam, and of the pull of belt or chain.
    pure subroutine share_loads(shaft, case)
-      !> The shaft
       type(shaft_t), intent(inout) :: shaft
-      !> The case
       type(case_t), intent(in) :: case
 
       integer :: cam
@@ -449,7 +447,6 @@ contains
 
    !> State of a bearing by what follows from the whole turn: its own oil, the orbit of its journal.
    pure subroutine state_of_turn(shaft, bearing, k, angle, load, state, status)
-      !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> Bearing and camshaft
       integer, intent(in) :: bearing, k
@@ -457,7 +454,6 @@ contains
       real(wp), intent(in) :: angle
       !> Force of the shaft on the bearing [N]
       real(wp), intent(in) :: load(2)
-      !> Its state
       type(bearing_state_t), intent(out) :: state
       !> `journal_solved` or `journal_without_film`
       integer, intent(out) :: status

@@ -58,7 +58,6 @@ contains
 
    !> Refuse a cam whose roller path bends too sharply at its sharpest point between two angles.
    subroutine check_summit(model, grinding_wheel_radius, angles, bends, error)
-      !> The model
       type(model_t), intent(in) :: model
       !> Radius of the grinding wheel, zero where not given [m]
       real(wp), intent(in) :: grinding_wheel_radius
@@ -82,7 +81,6 @@ contains
 
    !> Refuse a cam that cannot be at one angle.
    subroutine check_position(model, grinding_wheel_radius, angle, bend, error)
-      !> The model
       type(model_t), intent(in) :: model
       !> Radius of the grinding wheel, zero where not given [m]
       real(wp), intent(in) :: grinding_wheel_radius

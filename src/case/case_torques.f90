@@ -26,7 +26,6 @@ contains
 
    !> Does a case have a torque of the list? It follows from the part of the model that the torque comes from.
    pure function has_torque(case, row) result(has)
-      !> The case
       type(case_t), intent(in) :: case
       !> Row of `torque_list`
       integer, intent(in) :: row

@@ -250,7 +250,6 @@ contains
 
    !> Has a case a rough film that a smooth one may stand for? Not where its asperities come with it.
    pure function has_rough_film(case) result(has)
-      !> The case
       type(case_t), intent(in) :: case
       !> Has it one?
       logical :: has

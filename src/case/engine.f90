@@ -94,7 +94,6 @@ contains
 
    !> Crank angle from the firing dead centre of cylinder 1 to full lift of a cam, within one working cycle.
    pure function full_lift_angle(engine, cylinder, lobe) result(angle)
-      !> The engine
       type(engine_t), intent(in) :: engine
       !> Cylinder and lobe shape of the cam
       integer, intent(in) :: cylinder, lobe

@@ -100,7 +100,6 @@ contains
 
    !> Refuse what a flexible train cannot go with.
    subroutine check_company(case, error)
-      !> The case
       type(case_t), intent(in) :: case
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
@@ -115,7 +114,6 @@ contains
 
    !> Refuse contacts that cannot carry.
    subroutine check_contacts(case, lift, error)
-      !> The case
       type(case_t), intent(in) :: case
       !> Largest lift of the lobe shape [m]
       real(wp), intent(in) :: lift
@@ -146,7 +144,6 @@ contains
    subroutine set_spring(flexible, case, error)
       !> The train
       type(flexible_t), intent(inout) :: flexible
-      !> The case
       type(case_t), intent(in) :: case
       !> Deck error where the spring's third is more than the mass that holds it
       type(error_t), allocatable, intent(out) :: error
@@ -173,9 +170,7 @@ contains
    subroutine set_rest(flexible, case, linkage, train, load, error)
       !> The train
       type(flexible_t), intent(inout) :: flexible
-      !> The case
       type(case_t), intent(in) :: case
-      !> Its linkage
       type(linkage_t), intent(in) :: linkage
       !> Its masses and spring
       type(train_t), intent(in) :: train

@@ -53,7 +53,6 @@ contains
 
    !> Kinks of the lift strictly between two angles.
    pure subroutine take_kinks(model, start, finish, count, kinks)
-      !> The model
       type(model_t), intent(in) :: model
       !> First and last angle, of any turn [rad]
       real(wp), intent(in) :: start, finish
@@ -116,7 +115,6 @@ contains
 
    !> Number of steps of a piece.
    pure function steps_of(scan, ends) result(steps)
-      !> The scan
       type(scan_t), intent(in) :: scan
       !> Its ends [rad]
       real(wp), intent(in) :: ends(2)

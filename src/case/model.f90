@@ -242,7 +242,6 @@ contains
 
    !> Films for every speed and load that the cycle may have.
    subroutine set_film_table(model, error)
-      !> The model
       type(model_t), intent(inout) :: model
       !> Domain error beyond the range of numerical solutions; convergence error where their accuracy is not reached
       type(error_t), allocatable, intent(out) :: error
@@ -299,9 +298,7 @@ contains
 
    !> Laws by name; numerics that mean nothing are refused.
    subroutine choose_laws(model, case, error)
-      !> The model
       type(model_t), intent(inout) :: model
-      !> A case
       type(case_t), intent(in) :: case
       !> Deck error that lists the known names
       type(error_t), allocatable, intent(out) :: error
@@ -349,9 +346,7 @@ contains
 
    !> Constants of the contact.
    subroutine set_contact(model, case, error)
-      !> The model
       type(model_t), intent(inout) :: model
-      !> A case
       type(case_t), intent(in) :: case
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
@@ -387,7 +382,6 @@ contains
    subroutine set_train(model, case, error)
       !> The model with its linkage
       type(model_t), intent(inout) :: model
-      !> A case
       type(case_t), intent(in) :: case
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
@@ -431,9 +425,7 @@ contains
 
    !> Effects that the case has.
    subroutine set_effects(model, case, error)
-      !> The model
       type(model_t), intent(inout) :: model
-      !> A case
       type(case_t), intent(in) :: case
       !> Deck error
       type(error_t), allocatable, intent(out) :: error

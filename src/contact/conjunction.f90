@@ -326,7 +326,6 @@ contains
 
    !> The same by quadrature over the contact.
    pure subroutine sum_shear(film, warm, hot, change_slope, shear)
-      !> The film
       type(sheared_film_t), intent(in) :: film
       !> Oil at the temperature of the film
       type(oil_t), intent(in) :: warm

@@ -106,9 +106,7 @@ contains
 
    !> Integrate the roller of a rigid train until its cycle is periodic.
    subroutine integrate_roller(cycle, model, numerics, error)
-      !> The cycle
       type(cycle_t), intent(out) :: cycle
-      !> The model
       type(model_t), intent(in), target :: model
       !> Method, tolerance, criterion
       type(numerics_t), intent(in) :: numerics
@@ -180,7 +178,6 @@ contains
    subroutine follow_balances(cycle, model, tolerance, error)
       !> The cycle, with its stops and tolerance
       type(cycle_t), intent(inout) :: cycle
-      !> The model
       type(model_t), intent(in), target :: model
       !> Error allowed of the curve [m/s]
       real(wp), intent(in) :: tolerance
@@ -200,7 +197,6 @@ contains
 
    !> Take the solution of a flexible train for the cycle.
    subroutine take_flexible(cycle, model, numerics, error, start)
-      !> The cycle
       type(cycle_t), intent(inout) :: cycle
       !> The model, with a flexible train
       type(model_t), intent(in), target :: model
@@ -339,7 +335,6 @@ contains
 
    !> Refuse set-valued friction with a method without error control.
    subroutine check_mobilisation(model, error)
-      !> The model
       type(model_t), intent(in) :: model
       !> Deck error
       type(error_t), allocatable, intent(out) :: error

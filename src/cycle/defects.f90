@@ -107,7 +107,6 @@ contains
    pure subroutine weaken_decay(model, cycle, state, defect, decay_rate)
       !> Model of the lobe
       type(model_t), intent(in) :: model
-      !> Its cycle
       type(cycle_t), intent(in) :: cycle
       !> State on the curve
       type(state_t), intent(in) :: state

@@ -170,9 +170,7 @@ contains
 
    !> Keep error and contraction for the point of the interval that stands at a cut, if there is one.
    pure subroutine keep_error(estimate, cut)
-      !> The estimate
       type(estimate_t), intent(inout) :: estimate
-      !> The cut
       integer, intent(in) :: cut
 
       integer :: i

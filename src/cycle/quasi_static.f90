@@ -179,7 +179,6 @@ contains
       real(wp), intent(in) :: angle
       !> Sliding speed nearby [m/s]
       real(wp), intent(in) :: guess
-      !> The balance
       type(balance_t), intent(out) :: balance
       !> Work done
       type(counters_t), intent(inout) :: counters

@@ -106,9 +106,7 @@ contains
 
    !> Make method and options where they are not there from an earlier piece, and forget what happened in that.
    subroutine make_ready(piece, model, numerics, scale, error)
-      !> The piece
       type(spin_piece_t), intent(inout) :: piece
-      !> The model
       type(model_t), intent(in), target :: model
       !> Method and tolerance
       type(numerics_t), intent(in) :: numerics

@@ -130,7 +130,6 @@ contains
 
    !> Direction of the next phase.
    subroutine choose_direction(problem, walk, direction, counters, error)
-      !> The problem
       type(spin_problem_t), intent(in) :: problem
       !> Where the integration has got to; a sliding speed that counts as none becomes zero, unless the roller goes on that way
       type(walk_t), intent(inout) :: walk
@@ -172,9 +171,7 @@ contains
 
    !> Slide in one direction, up to where the sliding speed passes through zero or for a stretch.
    subroutine slide(problem, method, options, stops, direction, walk, trajectory, counters, error)
-      !> The problem
       type(spin_problem_t), intent(inout) :: problem
-      !> The method
       class(method_t), intent(inout) :: method
       !> Tolerance and steps
       type(options_t), intent(in) :: options
@@ -227,7 +224,6 @@ contains
    !> Without touching asperities there is no friction whose sign could be wrong, and the curve holds beyond; it is then left
    !> before asperities touch. A step from rest that leaves its direction at once is a slide too short to be seen: rest at its end.
    subroutine find_turn(model, direction, piece, has_turned, walk, counters)
-      !> The model
       type(model_t), intent(in) :: model
       !> Direction of sliding, 1 or -1
       integer, intent(in) :: direction
@@ -300,7 +296,6 @@ contains
 
    !> Stick up to where friction no longer holds the roller, or to the end.
    subroutine stick(problem, stops, walk, direction, trajectory, counters, error)
-      !> The problem
       type(spin_problem_t), intent(in) :: problem
       !> Stops [rad]
       real(wp), intent(in) :: stops(:)
@@ -351,7 +346,6 @@ contains
 
    !> One step of the scan, short enough for the rates to be all but straight lines.
    subroutine scan_step(problem, finish, least_rate, angles, rates, step, counters, error)
-      !> The problem
       type(spin_problem_t), intent(in) :: problem
       !> Angle that is not to be passed [rad]
       real(wp), intent(in) :: finish
@@ -389,7 +383,6 @@ contains
 
    !> Angle at which friction no longer holds the roller.
    function breakaway_between(problem, direction, threshold, ends, rates_at_ends, counters) result(angle)
-      !> The problem
       type(spin_problem_t), intent(in) :: problem
       !> Direction in which it breaks away
       integer, intent(in) :: direction
@@ -423,7 +416,6 @@ contains
 
    !> Rates at rest, counted as evaluations.
    subroutine counted_rates(problem, angle, rates, counters, error)
-      !> The problem
       type(spin_problem_t), intent(in) :: problem
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle

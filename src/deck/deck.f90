@@ -145,7 +145,6 @@ contains
 
    !> Settings, tables and sweep of a deck from its text and the values given beside it.
    subroutine read_text(deck, error, reader)
-      !> The deck
       type(deck_t), intent(inout) :: deck
       !> Deck error with all mistakes
       type(error_t), allocatable, intent(out) :: error
@@ -175,7 +174,6 @@ contains
 
    !> Values that follow from others, rules, tables.
    subroutine complete(settings, folder, tables, mistakes)
-      !> The settings
       type(settings_t), intent(inout) :: settings
       !> Folder of the deck
       character(len=*), intent(in) :: folder
@@ -192,7 +190,6 @@ contains
 
    !> Inertia and centre of mass of the finger where the deck has none: what the model takes then.
    subroutine fill_finger(settings)
-      !> The settings
       type(settings_t), intent(inout) :: settings
 
       ! Mass [kg], distance from the pivot to the pad [m], inertia [kg m^2]
@@ -368,7 +365,6 @@ contains
 
    !> Does a sentence name a key, and not one whose name only begins alike?
    pure function names_key(sentence, name) result(verdict)
-      !> The sentence
       character(len=*), intent(in) :: sentence
       !> As `group.key`
       character(len=*), intent(in) :: name

@@ -92,7 +92,6 @@ contains
 
    !> Has a key a value in a group that is in use?
    elemental function is_shown(deck, position) result(verdict)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Position of the key
       integer, intent(in) :: position
@@ -166,7 +165,6 @@ contains
 
    !> Position of the group that somebody wants to see.
    subroutine find_wanted(schema, group, wanted, error)
-      !> The schema
       type(schema_t), intent(in) :: schema
       !> Name of the group; blank for all
       character(len=*), intent(in) :: group
@@ -192,7 +190,6 @@ contains
 
    !> One group of the complete deck.
    subroutine write_group(schema, position, mark, text)
-      !> The schema
       type(schema_t), intent(in) :: schema
       !> Position of the group
       integer, intent(in) :: position
@@ -237,7 +234,6 @@ contains
 
    !> Has a key a value to show that is right as it stands?
    pure function has_shown_value(key) result(verdict)
-      !> The key
       type(key_t), intent(in) :: key
       !> Has it?
       logical :: verdict
@@ -247,7 +243,6 @@ contains
 
    !> Default, example, or a sign for the kind of value.
    pure subroutine show_value(key, value)
-      !> The key
       type(key_t), intent(in) :: key
       !> What to show
       character(len=:), allocatable, intent(out) :: value
@@ -266,11 +261,8 @@ contains
 
    !> Meaning of a key, its limits, and whether it must be given.
    pure subroutine describe_key(schema, key, words)
-      !> The schema
       type(schema_t), intent(in) :: schema
-      !> The key
       type(key_t), intent(in) :: key
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       character(len=:), allocatable :: allowed
@@ -285,11 +277,8 @@ contains
 
    !> Meaning of a key, and when it is used.
    pure subroutine say_meaning(schema, key, words)
-      !> The schema
       type(schema_t), intent(in) :: schema
-      !> The key
       type(key_t), intent(in) :: key
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       character(len=:), allocatable :: use
@@ -301,7 +290,6 @@ contains
 
    !> Add a line with a comment beside it, in several lines where it is long.
    pure subroutine add_line(line, comment, text)
-      !> The line
       character(len=*), intent(in) :: line
       !> The comment, without its mark
       character(len=*), intent(in) :: comment
@@ -363,7 +351,6 @@ contains
 
    !> One group as a table.
    subroutine write_table(schema, position, text)
-      !> The schema
       type(schema_t), intent(in) :: schema
       !> Position of the group
       integer, intent(in) :: position
@@ -391,7 +378,6 @@ contains
 
    !> Unit of a key; a dash where it has none.
    pure function unit_in_words(key) result(words)
-      !> The key
       type(key_t), intent(in) :: key
       !> The unit
       character(len=unit_name_length) :: words
@@ -402,7 +388,6 @@ contains
 
    !> A sentence with a capital at its beginning.
    pure function capital(words) result(sentence)
-      !> The words
       character(len=*), intent(in) :: words
       !> The sentence
       character(len=len(words)) :: sentence
@@ -413,9 +398,7 @@ contains
 
    !> Kind of value and its limits.
    pure subroutine say_kind(key, words)
-      !> The key
       type(key_t), intent(in) :: key
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       character(len=:), allocatable :: allowed
@@ -447,9 +430,7 @@ contains
 
    !> Default of a key.
    pure subroutine say_default(key, words)
-      !> The key
       type(key_t), intent(in) :: key
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       if (allocated(key%default)) then

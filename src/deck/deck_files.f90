@@ -112,7 +112,6 @@ contains
 
    !> Path of a file that a deck names.
    pure subroutine find_path(deck, name, path)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Name of the file, in quotes or not; blank where there is none
       character(len=*), intent(in) :: name

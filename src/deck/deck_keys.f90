@@ -97,9 +97,7 @@ contains
 
    !> What the run is.
    subroutine bind_run(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("case", group_standard, "title and bookkeeping of the case")
@@ -118,9 +116,7 @@ contains
 
    !> Keys of a lift, of the first and of the second lobe shape.
    subroutine bind_lift(keys, lift)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The lift
       type(lift_t), intent(inout) :: lift
 
       ! Place of the nose in a table [rad]
@@ -160,9 +156,7 @@ contains
 
    !> Masses and spring.
    subroutine bind_loads(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("masses", group_required, "moving masses")
@@ -196,9 +190,7 @@ contains
 
    !> Cylinder pressure.
    subroutine bind_gas(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       ! Place of the nose in the table [rad]; diameters of the heads of valves [m]
@@ -228,9 +220,7 @@ contains
 
    !> Bodies in contact.
    subroutine bind_materials(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("materials", group_required, "elasticity of cam and roller")
@@ -253,9 +243,7 @@ contains
 
    !> Oil.
    subroutine bind_lubricant(keys, oil)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The oil
       type(lubricant_t), intent(inout) :: oil
 
       call keys%group("lubricant", group_required, "oil")
@@ -297,9 +285,7 @@ contains
 
    !> Film: by a law, or numerical.
    subroutine bind_film(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("film", group_standard, "film thickness")
@@ -322,7 +308,6 @@ contains
 
    !> Friction of the film.
    subroutine bind_traction(keys, traction)
-      !> The keys
       type(keys_t), intent(inout) :: keys
       !> Its laws
       type(traction_t), intent(inout) :: traction
@@ -346,9 +331,7 @@ contains
 
    !> Choice of effects, integration.
    subroutine bind_numerics(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("effects", group_standard, "which effects of the deck are computed")
@@ -378,7 +361,6 @@ contains
 
    !> Result file.
    subroutine bind_output(keys, numerics, options)
-      !> The keys
       type(keys_t), intent(inout) :: keys
       !> Gets the step of the output
       type(numerics_t), intent(inout) :: numerics

@@ -65,7 +65,6 @@ contains
    !> The closed energy balance needs exact arm and spin, mobilised boundary friction, rolling resistance in the
    !> balance.
    subroutine energy_needs_its_bookkeeping(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -91,7 +90,6 @@ contains
 
    !> Only methods with error control tell sticking from sliding.
    subroutine stick_slip_has_a_method(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -104,7 +102,6 @@ contains
 
    !> The finger has a mass, a moment of inertia or both.
    subroutine finger_has_a_mass(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -117,7 +114,6 @@ contains
 
    !> A lift law comes with its lengths, angles and exponents, or with its table.
    subroutine lift_has_what_its_law_needs(settings, group, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Name of the lift's group
       character(len=*), intent(in) :: group
@@ -152,7 +148,6 @@ contains
 
    !> The exponents of a lift law, increasing and each large enough for two continuous derivatives.
    subroutine demand_exponents(settings, group, law, number, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Names of the lift's group and of its law
       character(len=*), intent(in) :: group, law
@@ -181,7 +176,6 @@ contains
 
    !> A second lobe shape has a cam, and a cam of the second lobe shape has a lift.
    subroutine second_lift_is_used(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -211,7 +205,6 @@ contains
 
    !> Viscosity is given as its law takes it, and the pressure-viscosity coefficient directly or by Roelands' index.
    subroutine oil_has_what_its_law_needs(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -244,7 +237,6 @@ contains
 
    !> Pressure-viscosity coefficients over the temperature: as many as temperatures, in order, and no other coefficient.
    subroutine check_pressure_points(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -280,7 +272,6 @@ contains
 
    !> A data sheet gives two viscosities, or one with the viscosity index, or a grade; and nothing twice.
    subroutine demand_data_sheet(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -307,9 +298,7 @@ contains
 
    !> Points of a viscosity-temperature law.
    subroutine demand_points(settings, law, number, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
-      !> The law
       character(len=*), intent(in) :: law
       !> Number of points
       integer, intent(in) :: number
@@ -345,7 +334,6 @@ contains
 
    !> Eyring's law has its stress, the rough film law hardness and roughness, asperities a roughness.
    subroutine contact_has_what_its_laws_need(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -377,7 +365,6 @@ contains
 
    !> Bearings are in order, each cam stands between two of them, and each list has an entry for every cam.
    subroutine cams_stand_between_bearings(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -407,7 +394,6 @@ contains
 
    !> The law of finite width covers some widths, a law may have no orbits.
    subroutine bearings_suit_their_law(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -428,7 +414,6 @@ contains
 
    !> One entry for each cam; angles count from the first one.
    subroutine check_cams(settings, key, cams, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Name of the list
       character(len=*), intent(in) :: key
@@ -462,7 +447,6 @@ contains
 
    !> A tolerance takes the place of an accuracy.
    subroutine accuracy_or_tolerance(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -474,7 +458,6 @@ contains
 
    !> The reported angles are the same in every cycle.
    subroutine output_step_divides_the_turn(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes

@@ -85,9 +85,7 @@ contains
 
    !> The table of a group: that of the deck, or those that its cases name, each as the first case has it that names it.
    subroutine remark_tables(deck, group, is_of_rows, remarks)
-      !> The deck
       type(deck_t), intent(in) :: deck
-      !> The group
       character(len=*), intent(in) :: group
       !> On single rows, or on the table as a whole?
       logical, intent(in) :: is_of_rows
@@ -127,11 +125,9 @@ contains
 
    !> The table of a group as a case has it.
    subroutine remark_table(settings, tables, group, is_of_rows, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Their tables
       type(deck_tables_t), intent(in) :: tables
-      !> The group
       character(len=*), intent(in) :: group
       !> On single rows, or on the table as a whole?
       logical, intent(in) :: is_of_rows
@@ -152,7 +148,6 @@ contains
 
    !> Values given beside the deck that no case of the sweep has, since it varies their keys.
    subroutine remark_unused(deck, remarks)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
@@ -209,7 +204,6 @@ contains
 
    !> Usual speeds where an engine's deck gives that of the crankshaft.
    subroutine take_crank_speed(deck, usual)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Usual range; in: of the camshaft's speed
       type(range_t), intent(inout) :: usual
@@ -222,7 +216,6 @@ contains
 
    !> Name of a key with its group.
    pure function name_of(deck, position) result(name)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Position of the key
       integer, intent(in) :: position
@@ -235,13 +228,10 @@ contains
 
    !> A key that no case uses. A deck may give the default of such a key: nobody expects that to change anything.
    subroutine remark_idle(settings, key, name, value, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
-      !> The key
       type(key_t), intent(in) :: key
       !> As `group.key`
       character(len=*), intent(in) :: name
-      !> Its value
       type(value_t), intent(in) :: value
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
@@ -255,9 +245,7 @@ contains
 
    !> Is a value the default of its key?
    function has_default(key, value) result(verdict)
-      !> The key
       type(key_t), intent(in) :: key
-      !> Its value
       type(value_t), intent(in) :: value
       !> Is it?
       logical :: verdict
@@ -277,7 +265,6 @@ contains
 
    !> Does a key take a value? One that it refuses has a mistake, and needs no remark.
    function is_taken(key, text) result(verdict)
-      !> The key
       type(key_t), intent(in) :: key
       !> The value
       character(len=*), intent(in) :: text
@@ -293,7 +280,6 @@ contains
 
    !> Values of a key that varies.
    subroutine remark_axis(key, name, axis, remarks)
-      !> The key
       type(key_t), intent(in) :: key
       !> As `group.key`
       character(len=*), intent(in) :: name
@@ -325,7 +311,6 @@ contains
 
    !> One number.
    subroutine remark_number(key, name, number, remarks)
-      !> The key
       type(key_t), intent(in) :: key
       !> As `group.key`
       character(len=*), intent(in) :: name
@@ -346,7 +331,6 @@ contains
 
    !> Viscosities that no oil has at their temperature.
    subroutine remark_viscosity(deck, remarks)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
@@ -387,7 +371,6 @@ contains
 
    !> Temperatures of the oil, those of a sweep included, far from all at which something is known of it.
    subroutine remark_temperature(deck, remarks)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
@@ -445,7 +428,6 @@ contains
 
    !> Viscosity at high shear that does not go with the viscosity of the same oil without shear.
    subroutine remark_hths(deck, remarks)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)

@@ -357,7 +357,6 @@ contains
 
    !> Length of a case in words.
    pure function length_in_words(sweep, case_number) result(length)
-      !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Number of the case, from 1
       integer, intent(in) :: case_number
@@ -387,11 +386,9 @@ contains
 
    !> Describe a case.
    pure subroutine describe_case(sweep, case_number, words)
-      !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Number of the case, from 1
       integer, intent(in) :: case_number
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       type(override_t), allocatable :: overrides(:)

@@ -60,11 +60,8 @@ contains
 
    !> Keys with lists and ranges.
    subroutine read_axes(schema, settings, sweep, mistakes)
-      !> The schema
       type(schema_t), intent(in) :: schema
-      !> The settings
       type(settings_t), intent(in) :: settings
-      !> The sweep
       type(sweep_t), intent(inout) :: sweep
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -99,7 +96,6 @@ contains
 
    !> The key of the deck that gives the values of a key.
    pure function values_key(settings, digit) result(key)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Number of the key
       character(len=1), intent(in) :: digit
@@ -112,9 +108,7 @@ contains
 
    !> A key that no case uses would make cases that are all the same.
    subroutine refuse_idle_axes(settings, sweep, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
-      !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -138,9 +132,7 @@ contains
 
    !> Do the keys make up a sweep?
    subroutine check_shape(settings, sweep, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
-      !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -181,7 +173,6 @@ contains
 
    !> Values of a key that is not named.
    subroutine refuse_values_without_key(settings, digit, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Number of the key
       character(len=1), intent(in) :: digit
@@ -201,9 +192,7 @@ contains
 
    !> A key that is to vary.
    subroutine find_axis(schema, settings, name, place, axis, mistakes)
-      !> The schema
       type(schema_t), intent(in) :: schema
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> As `group.key`
       character(len=*), intent(in) :: name
@@ -239,11 +228,9 @@ contains
 
    !> Values of a key: a list, or a range.
    subroutine read_axis_values(settings, digit, sweep, axis, has_values, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Number of the key
       character(len=1), intent(in) :: digit
-      !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> The key; gets its values
       type(sweep_axis_t), intent(inout) :: axis
@@ -278,7 +265,6 @@ contains
 
    !> A list of values.
    subroutine read_list(settings, digit, text, axis, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Number of the key
       character(len=1), intent(in) :: digit
@@ -318,11 +304,9 @@ contains
 
    !> A range of numbers.
    subroutine read_range(settings, digit, sweep, axis, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Number of the key
       character(len=1), intent(in) :: digit
-      !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> The key; gets its range
       type(sweep_axis_t), intent(inout) :: axis
@@ -348,9 +332,7 @@ contains
 
    !> Is each value of the last key one that the key takes, and in a grid there once? Of a range the ends are tried.
    subroutine try_values(schema, settings, sweep, place, mistakes, path, lines)
-      !> The schema
       type(schema_t), intent(in) :: schema
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> The sweep so far
       type(sweep_t), intent(in) :: sweep
@@ -400,13 +382,10 @@ contains
 
    !> Keys and values from a table of cases.
    subroutine read_table_axes(schema, settings, folder, sweep, mistakes, reader)
-      !> The schema
       type(schema_t), intent(in) :: schema
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Folder of the deck
       character(len=*), intent(in) :: folder
-      !> The sweep
       type(sweep_t), intent(inout) :: sweep
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes

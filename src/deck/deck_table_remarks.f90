@@ -120,11 +120,9 @@ contains
 
    !> The event of a lift table that has noise on the base circle.
    subroutine remark_event(settings, group, path, lift, low, high, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Group of the lift, path of its table
       character(len=*), intent(in) :: group, path
-      !> The lift
       type(lift_t), intent(in) :: lift
       !> First and last row of the event in the lift of the valve
       integer, intent(out) :: low, high
@@ -156,7 +154,6 @@ contains
    subroutine remark_noise(group, path, lift, remarks)
       !> Group of the lift, path of its table
       character(len=*), intent(in) :: group, path
-      !> The lift
       type(lift_t), intent(in) :: lift
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
@@ -180,7 +177,6 @@ contains
    subroutine remark_ends(group, path, lift, remarks)
       !> Group of the lift, path of its table
       character(len=*), intent(in) :: group, path
-      !> The lift
       type(lift_t), intent(in) :: lift
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
@@ -284,9 +280,7 @@ contains
 
    !> A pressure of combustion far from the crank angle at which the cylinder fires.
    subroutine remark_firing(settings, table, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
-      !> The table
       type(table_t), intent(in) :: table
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
@@ -310,7 +304,6 @@ contains
 
    !> A pressure of combustion on an open valve.
    subroutine remark_open_valve(settings, tables, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Their tables
       type(deck_tables_t), intent(in) :: tables
@@ -358,7 +351,6 @@ contains
 
    !> A jump of the pressure from the last row of a turn to its first one.
    subroutine remark_seam(table, remarks)
-      !> The table
       type(table_t), intent(in) :: table
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
@@ -380,7 +372,6 @@ contains
 
    !> A curve that leaves the rows it goes through: beside a jump, for which there are too few rows.
    subroutine remark_swing(table, remarks)
-      !> The table
       type(table_t), intent(in) :: table
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)

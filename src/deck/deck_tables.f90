@@ -102,7 +102,6 @@ contains
 
    !> Have one table at hand.
    subroutine obtain(settings, group, folder, kept, table, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Group that names the table
       character(len=*), intent(in) :: group
@@ -110,7 +109,6 @@ contains
       character(len=*), intent(in) :: folder
       !> Tables that are at hand where no other is to be read
       type(kept_table_t), allocatable, intent(in) :: kept(:)
-      !> The table
       type(table_t), intent(inout) :: table
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -156,7 +154,6 @@ contains
       type(kept_table_t), intent(in) :: kept(:)
       !> Group that names it, and its path
       character(len=*), intent(in) :: group, path
-      !> The table
       type(table_t), intent(inout) :: table
       !> File error where it is not among them
       type(error_t), allocatable, intent(out) :: error
@@ -177,11 +174,9 @@ contains
 
    !> Is a table a lift: from zero to zero, nowhere negative, around the nose, within one turn?
    subroutine check_lift(settings, group, table, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Group that names the table
       character(len=*), intent(in) :: group
-      !> The table
       type(table_t), intent(in) :: table
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -266,7 +261,6 @@ contains
    subroutine check_rest(group, table, lift, nothing, is_contour, mistakes)
       !> Group that names the table
       character(len=*), intent(in) :: group
-      !> The table
       type(table_t), intent(in) :: table
       !> Its lift, of a contour the height over the base circle; what counts as zero [unit of the file]
       real(wp), intent(in) :: lift(:), nothing
@@ -291,11 +285,9 @@ contains
 
    !> Has the event all rows? Can the roller follow a contour, or be where its lift has it?
    subroutine check_form(settings, group, table, kind, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Group that names the table
       character(len=*), intent(in) :: group
-      !> The table
       type(table_t), intent(in) :: table
       !> What it holds
       integer, intent(in) :: kind
@@ -347,11 +339,9 @@ contains
    !> of a contour over the base circle. Rows of zero before and after the event are left out but for one; of a contour, rows
    !> beyond those on the base circle next to the nose.
    subroutine take_given(settings, group, table, given, before)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Group that names the table
       character(len=*), intent(in) :: group
-      !> The table
       type(table_t), intent(in) :: table
       !> The values as a lift's table
       type(lift_t), intent(inout) :: given
@@ -391,7 +381,6 @@ contains
 
    !> Is a table one turn of the cylinder pressure?
    subroutine check_pressure(table, mistakes)
-      !> The table
       type(table_t), intent(in) :: table
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -415,9 +404,7 @@ contains
 
    !> Take note of a mistake in a row.
    subroutine row_mistake(table, row, message, mistakes)
-      !> The table
       type(table_t), intent(in) :: table
-      !> The row
       integer, intent(in) :: row
       !> What is wrong
       character(len=*), intent(in) :: message

@@ -272,11 +272,9 @@ contains
 
    !> Is a use of a key open to the cases of a deck?
    pure recursive function holds(settings, sweep, use, choice) result(verdict)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys that vary
       type(sweep_t), intent(in) :: sweep
-      !> The use
       type(key_use_t), intent(in) :: use
       !> What decides: `group.key` or `&group`
       character(len=*), intent(in) :: choice
@@ -338,7 +336,6 @@ contains
 
    !> Position of the value of `group.key`.
    pure function value_of(settings, key) result(position)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> As `group.key`
       character(len=*), intent(in) :: key
@@ -352,7 +349,6 @@ contains
    pure function choice_of(key, use) result(choice)
       !> As `group.key`
       character(len=*), intent(in) :: key
-      !> The use
       type(key_use_t), intent(in) :: use
       !> The choice
       character(len=2*key_length) :: choice

@@ -82,9 +82,7 @@ contains
    subroutine read_rows(path, text, columns, mistakes)
       !> Path of the file, for messages
       character(len=*), intent(in) :: path
-      !> The text
       character(len=*), intent(in) :: text
-      !> Its columns
       type(column_t), allocatable, intent(out) :: columns(:)
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -157,7 +155,6 @@ contains
 
    !> Cut a line into its words, without its comment.
    pure subroutine split_row(line, mark, row)
-      !> The line
       character(len=*), intent(in) :: line
       !> What parts its words beside blanks and tabulators
       character(len=1), intent(in) :: mark
@@ -262,7 +259,6 @@ contains
 
    !> Is a word a number but for a comma in the place of its point?
    pure function has_decimal_comma(word) result(verdict)
-      !> The word
       character(len=*), intent(in) :: word
       !> Is it?
       logical :: verdict
@@ -326,7 +322,6 @@ contains
    pure subroutine read_unit(text, unit, reason)
       !> What stands behind the name
       character(len=*), intent(in) :: text
-      !> The unit
       character(len=*), intent(inout) :: unit
       !> What is wrong; empty where nothing is
       character(len=:), allocatable, intent(out) :: reason

@@ -36,9 +36,7 @@ contains
 
    !> Camshaft, its bearings and its cams.
    subroutine bind_shaft(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group(bearings, group_effect, "camshaft, its bearings and its cams")
@@ -76,9 +74,7 @@ contains
 
    !> Mixed friction, pull of belt or chain, heat, seals.
    subroutine bind_parts(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group(mixed, group_effect, "asperities that share the load of the camshaft bearings where their "// &
@@ -169,7 +165,6 @@ contains
 
    !> Rule: heat leaves with oil, whose flow is known for some widths.
    subroutine check_flow(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -188,7 +183,6 @@ contains
 
    !> Rules: the table of seals and drive rises in speed and temperature, and has a torque for each pair.
    subroutine check_drag(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes

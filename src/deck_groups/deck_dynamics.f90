@@ -34,9 +34,7 @@ contains
 
    !> The train.
    subroutine bind_train(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("dynamics", group_effect, "a train that bends, leaves contact and returns")
@@ -76,9 +74,7 @@ contains
 
    !> The spring's mass.
    subroutine bind_surge(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("spring_surge", group_effect, "waves in the valve spring of a flexible train")
@@ -95,9 +91,7 @@ contains
 
    !> The lash adjuster.
    subroutine bind_adjuster(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("lash_adjuster", group_effect, "hydraulic lash adjuster under the pivot of a flexible train")
@@ -192,7 +186,6 @@ contains
 
    !> The base circle load is given, or the plunger's spring that makes it.
    subroutine load_is_given_once(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -212,7 +205,6 @@ contains
 
    !> The finger's own mass moves with the pivot.
    subroutine finger_is_known(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -233,7 +225,6 @@ contains
 
    !> Down to its lower stop the plunger leaves a chamber.
    subroutine chamber_keeps_a_volume(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -255,7 +246,6 @@ contains
 
    !> The valve's mass holds a third of the spring's.
    subroutine spring_leaves_a_valve(settings, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes

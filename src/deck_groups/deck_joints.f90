@@ -74,9 +74,7 @@ contains
 
    !> Friction of the valve's stem at its seal and at the ends of its guide.
    subroutine bind_stem(keys, case)
-      !> The keys
       type(keys_t), intent(inout) :: keys
-      !> The case
       type(case_t), intent(inout) :: case
 
       call keys%group("stem_seal", group_effect, "seal on the valve's stem")
@@ -109,7 +107,6 @@ contains
 
    !> Keys of a coefficient of friction, and the coefficient.
    subroutine bind_sliding(keys, sliding)
-      !> The keys
       type(keys_t), intent(inout) :: keys
       !> The coefficient
       type(sliding_t), intent(inout) :: sliding
@@ -167,7 +164,6 @@ contains
 
    !> Law `stribeck` has its keys.
    subroutine curve_is_given(settings, group, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Group of the joint
       character(len=*), intent(in) :: group
@@ -185,7 +181,6 @@ contains
 
    !> A flexible train has friction whose reversal is spread over a speed: where it jumped, finger and valve would stick.
    subroutine reversal_is_spread(settings, group, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Group of the joint
       character(len=*), intent(in) :: group

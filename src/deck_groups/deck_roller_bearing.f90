@@ -111,7 +111,6 @@ contains
 
    !> A bearing whose torque is not in proportion to its load has its numbers, and no company that it is not combined with.
    subroutine check_company(settings, kind, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Kind of the bearing, one of these
       character(len=*), intent(in) :: kind
@@ -139,7 +138,6 @@ contains
 
    !> A pin with a film has a width that its law covers and surfaces that are apart in the middle.
    subroutine check_pin(settings, radius, mistakes)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Radius of the pin [m]
       real(wp), intent(in) :: radius

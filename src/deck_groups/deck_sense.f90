@@ -58,7 +58,6 @@ contains
 
    !> The ring is made of something, and is a part of the finger, whose mass is where the finger is.
    subroutine compare_masses(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -93,7 +92,6 @@ contains
 
    !> Needles roll between pin and ring.
    subroutine compare_roller_bearing(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -135,7 +133,6 @@ contains
 
    !> The guide of &valve_guide is that of &guide_side_load; the valve's tip stays above it.
    subroutine compare_guide(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -165,7 +162,6 @@ contains
 
    !> Two viscosities of one oil.
    subroutine compare_viscosities(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -197,7 +193,6 @@ contains
 
    !> With lash the base circle load of a rigid train is not there.
    subroutine compare_lash(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -216,7 +211,6 @@ contains
 
    !> The coefficient of asperities is that of the logarithmic law at its reference, and within its bounds.
    subroutine compare_boundary(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -243,7 +237,6 @@ contains
 
    !> Bounds of the coefficient and a table of it.
    subroutine compare_points(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -267,7 +260,6 @@ contains
 
    !> Cams of a shaft stand side by side.
    subroutine compare_cams(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -298,7 +290,6 @@ contains
 
    !> Valves open when their cylinder does not fire, and each cylinder has some.
    subroutine look_at_engine(settings, left_out, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)
@@ -339,7 +330,6 @@ contains
 
    !> Temperatures of the oil without a law of its viscosity.
    subroutine look_at_temperature(settings, varied, remarks)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys that vary
       character(len=*), intent(in) :: varied(:)
@@ -365,7 +355,6 @@ contains
 
    !> Values of numbers, where all of them are there and something may be said of each.
    subroutine get(settings, left_out, keys, values, are_there)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Keys of which nothing is said
       character(len=*), intent(in) :: left_out(:)

@@ -81,9 +81,7 @@ contains
 
    !> Mean torque of one bearing with the temperature and the orbit that the case asks for.
    subroutine follow_bearing(case, shaft, rotation, load, torque, error)
-      !> The case
       type(case_t), intent(in) :: case
-      !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> Sense in which the shaft turns [-]
       real(wp), intent(in) :: rotation

@@ -381,13 +381,11 @@ contains
 
    !> Camshaft bearings: they take torque and do nothing else. Several cams are not surveyed.
    subroutine weigh_bearings(case, surveys, torque, decision)
-      !> The case
       type(case_t), intent(in) :: case
       !> Cycle of each lobe shape
       type(survey_t), intent(in) :: surveys(:)
       !> Mean torque for losses
       type(mean_torque_t), intent(in) :: torque
-      !> The decision
       type(decision_t), intent(inout) :: decision
 
       if (.not. has_single_cam(case)) then
@@ -404,7 +402,6 @@ contains
 
    !> What changes the friction of the camshaft bearings and nothing else.
    subroutine weigh_bearing_part(case, models, surveys, torque, decision)
-      !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
@@ -412,7 +409,6 @@ contains
       type(survey_t), intent(in) :: surveys(:)
       !> Mean torque for losses
       type(mean_torque_t), intent(in) :: torque
-      !> The decision
       type(decision_t), intent(inout) :: decision
 
       type(case_t) :: variant
@@ -449,7 +445,6 @@ contains
 
    !> Number of followers that a lobe shape drives.
    pure function followers_of(case, lobe) result(followers)
-      !> The case
       type(case_t), intent(in) :: case
       !> Lobe shape
       integer, intent(in) :: lobe

@@ -127,7 +127,6 @@ contains
 
    !> Moes' numbers round the cycle.
    subroutine find_moes_numbers(model, survey, reason)
-      !> The model
       type(model_t), intent(in) :: model
       !> Survey of its cycle
       type(survey_t), intent(in) :: survey

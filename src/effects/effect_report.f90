@@ -56,7 +56,6 @@ contains
 
    !> Say where a law is outside its range that it stands in the place of the deck's.
    subroutine excuse_law(result, name)
-      !> The result
       type(result_t), intent(inout) :: result
       !> Name of the effect that was left out
       character(len=*), intent(in) :: name

@@ -128,7 +128,6 @@ contains
 
    !> Uncertainty of a survey.
    subroutine estimate_uncertainty(model, balance_decay, survey)
-      !> The model
       type(model_t), intent(in) :: model
       !> Decay rates at the balance, with which the sliding speed was delayed [1/rad]
       real(wp), intent(in) :: balance_decay(points)
@@ -163,9 +162,7 @@ contains
 
    !> Decay and balance with which the roller equation has the rate that it has at the delayed sliding speed.
    subroutine refine_decay(model, survey, point, balance_decay, decay, balance)
-      !> The model
       type(model_t), intent(in) :: model
-      !> The survey
       type(survey_t), intent(in) :: survey
       !> Which of its angles
       integer, intent(in) :: point
@@ -252,13 +249,11 @@ contains
    subroutine look(survey, model, sliding, moments, states, decay, is_fine)
       !> The angles
       type(survey_t), intent(in) :: survey
-      !> The model
       type(model_t), intent(in) :: model
       !> Sliding speeds [m/s]
       real(wp), intent(in) :: sliding(points)
       !> Further moments about the pivot [N m]
       real(wp), intent(in), optional :: moments(points)
-      !> The states
       type(state_t), intent(out) :: states(points)
       !> Decay rates [1/rad]
       real(wp), intent(out) :: decay(points)
@@ -298,7 +293,6 @@ contains
    pure subroutine sum_up(survey, model, second, change, correction, response)
       !> The cycle as it is
       type(survey_t), intent(in) :: survey
-      !> Its model
       type(model_t), intent(in) :: model
       !> States after the change
       type(state_t), intent(in) :: second(points)
@@ -328,7 +322,6 @@ contains
 
    !> Change of the torque with the sliding speed.
    pure function torque_slopes(model, states) result(slopes)
-      !> The model
       type(model_t), intent(in) :: model
       !> States round the cycle
       type(state_t), intent(in) :: states(points)
@@ -343,7 +336,6 @@ contains
 
    !> Relative change of the film with the sliding speed: with the entrainment, and with the load, which traction changes.
    pure function film_slopes(model, states, distance) result(changes)
-      !> The model
       type(model_t), intent(in) :: model
       !> States round the cycle
       type(state_t), intent(in) :: states(points)

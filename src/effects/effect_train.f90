@@ -140,7 +140,6 @@ contains
 
    !> Load of the train that bends under its load, leaks and is filled again; losses at seat, leak and check valve.
    subroutine bend(model, outlook, train, lift, press_ratio)
-      !> The model
       type(model_t), intent(in) :: model
       !> Its modes
       type(outlook_t), intent(in) :: outlook
@@ -209,7 +208,6 @@ contains
 
    !> Let oil leak out of the adjuster's chamber; what leaks comes back through the check valve.
    subroutine let_leak(model, step, balance, work)
-      !> The model
       type(model_t), intent(in) :: model
       !> Time [s]
       real(wp), intent(in) :: step
@@ -231,11 +229,9 @@ contains
 
    !> What the balance at an angle is made of; the oil stays.
    subroutine start_balance(model, angle, balance)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle [rad]
       real(wp), intent(in) :: angle
-      !> The balance
       type(balance_t), intent(inout) :: balance
 
       type(moments_t) :: moments
@@ -269,7 +265,6 @@ contains
 
    !> Lift of the bent train: the lift that its forces make is the lift that leaves these forces.
    subroutine find_balance(model, rest, balance, lift, trouble)
-      !> The model
       type(model_t), intent(in) :: model
       !> The train at rest
       type(rest_t), intent(in) :: rest
@@ -331,7 +326,6 @@ contains
 
    !> Press the plunger down onto its oil, under the force of the pivot.
    pure subroutine press(model, rest, balance)
-      !> The model
       type(model_t), intent(in) :: model
       !> The train at rest
       type(rest_t), intent(in) :: rest
@@ -350,7 +344,6 @@ contains
 
    !> Let the load drive the lowest mode of the train.
    subroutine vibrate(model, outlook, lift, train)
-      !> The model
       type(model_t), intent(in) :: model
       !> Its modes
       type(outlook_t), intent(in) :: outlook
@@ -380,7 +373,6 @@ contains
 
    !> Let the rigid lift drive the modes of the spring, and them the train.
    subroutine surge(model, outlook, acceleration, lift, train)
-      !> The model
       type(model_t), intent(in) :: model
       !> Its modes
       type(outlook_t), intent(in) :: outlook

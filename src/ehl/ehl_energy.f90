@@ -146,7 +146,6 @@ contains
    pure function carried_capacity(problem, grid, state) result(capacity)
       !> The problem, with heat
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Flow and full nodes
       type(ehl_state_t), intent(in) :: state
@@ -166,7 +165,6 @@ contains
    pure function boundary_heat(problem, grid, state) result(heat)
       !> The problem, with heat
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Film and pressure of the asperities
       type(ehl_state_t), intent(in) :: state
@@ -181,7 +179,6 @@ contains
    !>
    !> Where the flow changes from cell to cell, as while the film changes, oil leaves the rest behind at the temperature there.
    pure function carried_heat(grid, capacity) result(rows)
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Flow of heat capacity between the nodes [W/(m K)]
       real(wp), intent(in) :: capacity(:)
@@ -308,9 +305,7 @@ contains
    !> Heat of sliding where traction is limited: each part of the film has its own limit. Where the traction as a whole is limited,
    !> these limits are multiplied by what makes the parts' shear add up to it.
    pure subroutine limit_heat(problem, grid, state, touching, free, slopes, made)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Pressure, film, viscosity
       type(ehl_state_t), intent(in) :: state
@@ -359,9 +354,7 @@ contains
 
    !> Force of a film whose traction is limited as a whole.
    pure subroutine limit_whole(problem, grid, state, free, slopes, force, by_rise)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Pressure and temperature
       type(ehl_state_t), intent(in) :: state
@@ -398,9 +391,7 @@ contains
 
    !> What the heat balances lack: what leaves less what is made; the first node has none but its temperature.
    pure function heat_lack(problem, grid, carried, made, rise, flux) result(lack)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Coefficients of the rise in what the oil carries off [W/(m K)]
       real(wp), intent(in) :: carried(-2:, :)
@@ -447,9 +438,7 @@ contains
 
    !> Factors of the derivatives of the heat balances over the sum of the fluxes, their difference being held.
    pure subroutine factorise_balance(problem, grid, energy, rows, made, resistance, info)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Gets the factors
       type(ehl_energy_t), intent(inout) :: energy

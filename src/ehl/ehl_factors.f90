@@ -97,7 +97,6 @@ contains
 
    !> Allocate factors for a number of unknown pressures.
    pure subroutine make_room(factors, unknowns, nodes)
-      !> The factors
       type(ehl_factors_t), intent(inout) :: factors
       !> Unknown pressures, nodes
       integer, intent(in) :: unknowns, nodes
@@ -191,7 +190,6 @@ contains
 
    !> Parts of the columns with which the new rows hold.
    pure subroutine find_parts(factors, rows, nodes, parts, info)
-      !> The factors
       type(ehl_factors_t), intent(in) :: factors
       !> Derivatives now
       type(ehl_rows_t), intent(in) :: rows

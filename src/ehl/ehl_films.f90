@@ -144,9 +144,7 @@ contains
    !> Before the first node the gap is nearly that of the parabola and the pressure gradient `12 eta0 u/h^2`, which adds
    !> `12 eta0 u R/x` to the rolling resistance.
    pure subroutine get_friction(problem, grid, state, films)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> The solution
       type(ehl_state_t), intent(in) :: state
@@ -223,7 +221,6 @@ contains
    elemental function fluidity_at(state, node) result(fluidity)
       !> The solution
       type(ehl_state_t), intent(in) :: state
-      !> The node
       integer, intent(in) :: node
       !> The logarithm [-]
       real(wp) :: fluidity
@@ -319,7 +316,6 @@ contains
    !> Where oil is drawn in, the film between two nodes is a quadratic, and the pressure's slope grows exponentially; beyond, both
    !> are straight lines, which a spike between two nodes does not disturb.
    pure function rolling_integral(grid, state) result(rolling)
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> The solution
       type(ehl_state_t), intent(in) :: state
@@ -427,7 +423,6 @@ contains
    !> drives of what more the cell could carry off. The part is one as the node becomes full and zero as its neighbour ruptures, so
    !> that nothing jumps as the end passes a node.
    pure function filled_part(grid, state) result(filled)
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> The solution
       type(ehl_state_t), intent(in) :: state

@@ -126,9 +126,7 @@ contains
 
    !> Film pressure that a step left below zero is set to zero, load and smallest film being kept.
    pure subroutine lift_pressure(problem, grid, state)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Total pressure, level and film
       type(ehl_state_t), intent(inout) :: state
@@ -149,9 +147,7 @@ contains
 
    !> Film at the pressure and the level of a state.
    pure function film_at(grid, state) result(film)
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
-      !> The state
       type(ehl_state_t), intent(in) :: state
       !> Film over its scale [-]
       real(wp) :: film(grid%size)
@@ -165,9 +161,7 @@ contains
    !> step what its own deformation stores. Without the latter the rest that an iteration leaves, over the length of the step,
    !> would count for more than the pressure, and nodes under full pressure would be taken for ruptured.
    pure subroutine choose_full_nodes(problem, grid, state, may_leap, has_same_nodes, storage)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> State; its full nodes are chosen
       type(ehl_state_t), intent(inout) :: state
@@ -207,9 +201,7 @@ contains
 
    !> Last node whose pressure is unknown: behind it there is neither film nor asperity pressure, nor was there.
    pure function last_unknown(grid, state) result(last)
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
-      !> The state
       type(ehl_state_t), intent(in) :: state
       !> Number of the node
       integer :: last
@@ -221,9 +213,7 @@ contains
 
    !> Derivatives of the equation of each inner node over film pressure and film, the former then over the total pressure.
    pure subroutine get_rows(grid, state, rows, storage)
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
-      !> The state
       type(ehl_state_t), intent(in) :: state
       !> Derivatives
       type(ehl_rows_t), intent(inout) :: rows
@@ -263,9 +253,7 @@ contains
 
    !> Newton's change of pressure, level and film.
    pure subroutine find_change(problem, grid, state, rows, change, level_change, film_change)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> The state with its factors
       type(ehl_state_t), intent(in) :: state
@@ -286,7 +274,6 @@ contains
 
    !> Part of a change that leaves the film positive and the pressure of its size, and the size of the whole change.
    pure subroutine choose_part(state, change, level_change, film_change, part, size_of_change)
-      !> The state
       type(ehl_state_t), intent(in) :: state
       !> Change of the total pressure at the nodes, of the level, of the film [-]
       real(wp), intent(in) :: change(:), level_change, film_change(:)

@@ -153,7 +153,6 @@ contains
    !> (eta V_s/(h tau_E))^2)`: Conry, Wang and Cusano, J. Tribology 109 (1987) 648, where the stress that the drop of pressure makes
    !> across the film is small beside tau_E. A problem may leave the flow as it is.
    pure subroutine thin_by_sliding(problem, film, shear_value, flow_value, shear_part, flow_part)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> Film over its scale [-]
       real(wp), intent(in) :: film
@@ -244,7 +243,6 @@ contains
 
    !> Means of `1/(rho H^3)` and `1/H^2` between two nodes by Simpson's rule, the middle by the quadratic through three nodes.
    pure subroutine mean_resistance(problem, face, fields, i, resistance, drag, resistance_slopes, drag_slopes)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> Weights of the nodes i - 1, i, i + 1 in the middle between the last two [-]
       real(wp), intent(in) :: face(3)

@@ -134,7 +134,6 @@ contains
 
    !> Solution from that on the grid with half the nodes.
    pure subroutine refine(problem, grid, coarse, tolerance, state, converged)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> The finer grid
       type(ehl_grid_t), intent(in) :: grid
@@ -157,7 +156,6 @@ contains
 
    !> Pressure and level from the grid with half the nodes.
    pure subroutine interpolate(problem, grid, coarse, is_cubic, state)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> The finer grid
       type(ehl_grid_t), intent(in) :: grid
@@ -284,9 +282,7 @@ contains
 
    !> Pressure of a dry or of a rigid contact, and the level of the gap that goes with the expected film.
    pure subroutine start_state(problem, grid, is_rigid, state)
-      !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> Is the pressure that of a rigid contact?
       logical, intent(in) :: is_rigid

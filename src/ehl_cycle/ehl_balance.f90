@@ -37,7 +37,6 @@ contains
 
    !> Spin of the roller over the finger.
    pure function spin_at(model, position, sliding_speed) result(spin)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry
       type(position_t), intent(in) :: position
@@ -101,7 +100,6 @@ contains
    !> The same with the friction of the pivot, which depends on the load: a contraction, whose factor is the friction circle of the
    !> ball over the arm of the load.
    pure subroutine add_pivot_friction(model, position, moments, tangential, moment, arm, load)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry
       type(position_t), intent(in) :: position

@@ -177,7 +177,6 @@ contains
 
    !> Is the cycle complete and periodic?
    subroutine judge(cycle, reached, last, options, error)
-      !> The cycle
       type(ehl_cycle_t), intent(in) :: cycle
       !> Last contact reached
       type(moment_t), intent(in) :: reached
@@ -233,7 +232,6 @@ contains
 
    !> Forget a cycle that was not periodic.
    subroutine begin_again(cycle)
-      !> The cycle
       type(ehl_cycle_t), intent(inout) :: cycle
 
       deallocate (cycle%moments)
@@ -293,13 +291,11 @@ contains
 
    !> Steady contact at the start of the run-up.
    subroutine start_history(model, march, state, first, error)
-      !> The model
       type(model_t), intent(in) :: model
       !> What stays over the cycle
       type(ehl_march_t), intent(in) :: march
       !> Pressure
       type(ehl_state_t), intent(out) :: state
-      !> First moment
       type(moment_t), intent(out) :: first
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
@@ -351,13 +347,11 @@ contains
 
    !> Keep a moment of the cycle.
    subroutine keep(cycle, nodes, state, now, keeps_profiles)
-      !> The cycle
       type(ehl_cycle_t), intent(inout) :: cycle
       !> Nodes of a profile
       integer, intent(in) :: nodes
       !> The solution, where there has been a film
       type(ehl_state_t), intent(in) :: state
-      !> The moment
       type(moment_t), intent(in) :: now
       !> Are profiles kept?
       logical, intent(in) :: keeps_profiles

@@ -125,7 +125,6 @@ contains
    subroutine steady_contacts(cycle, model, angles, loads, speeds, error)
       !> The contacts
       type(ehl_cycle_t), intent(out) :: cycle
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angles from full lift [rad], loads [N], sliding speeds [m/s]
       real(wp), intent(in) :: angles(:), loads(:), speeds(:)
@@ -167,7 +166,6 @@ contains
    !> Film and friction at one angle. Where the coefficient of boundary friction follows the temperature of the surfaces, both are
    !> solved for by turns: the heat of boundary friction is a part of all heat, and the coefficient a weak function of it.
    subroutine solve_at(model, march, before, state, now, converged)
-      !> The model
       type(model_t), intent(in) :: model
       !> Nodes
       type(ehl_march_t), intent(in) :: march

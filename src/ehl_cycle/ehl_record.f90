@@ -179,13 +179,10 @@ contains
 
    !> Contact by the closed formulas at the load and the slip of a state; at rest with the same part of boundary friction.
    pure subroutine closed_contact(model, now, state, contact)
-      !> The model
       type(model_t), intent(in) :: model
       !> The contact that was solved
       type(moment_t), intent(in) :: now
-      !> The state
       type(state_t), intent(in) :: state
-      !> The contact
       type(contact_t), intent(out) :: contact
 
       type(setting_t) :: setting

@@ -214,7 +214,6 @@ contains
 
    !> Entrainment speed that the film has: it keeps a least size where the roller's surface runs against the cam's.
    pure function entrainment_at(model, position, sliding_speed) result(entrainment)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry
       type(position_t), intent(in) :: position
@@ -315,11 +314,9 @@ contains
    !> Sliding speed at which the roller's spin follows from film and load: rest where friction can hold the roller, else Newton's
    !> method inside a bracket.
    pure subroutine find_sliding_speed(model, position, before, rates, now)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry
       type(position_t), intent(in) :: position
-      !> Moments before
       type(moment_t), intent(in) :: before(:)
       !> Weights in the rates [1/s]
       real(wp), intent(in) :: rates(0:2)

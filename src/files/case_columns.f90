@@ -38,7 +38,6 @@ module camroller_case_columns
       !> Is a file of the kind that a reader reads?
       function takes_file(self, path) result(verdict)
          import :: column_reader_t
-         !> The reader
          class(column_reader_t), intent(in) :: self
          !> Path of the file
          character(len=*), intent(in) :: path
@@ -49,11 +48,9 @@ module camroller_case_columns
       !> Read the columns of a file.
       subroutine read_file(self, path, columns, error)
          import :: column_reader_t, column_t, error_t
-         !> The reader
          class(column_reader_t), intent(in) :: self
          !> Path of the file
          character(len=*), intent(in) :: path
-         !> Its columns
          type(column_t), allocatable, intent(out) :: columns(:)
          !> File error
          type(error_t), allocatable, intent(out) :: error

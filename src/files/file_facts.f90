@@ -93,7 +93,6 @@ contains
    function facts_of(folder, path, flags) result(facts)
       !> Descriptor that the path starts at
       integer(c_int), intent(in) :: folder
-      !> The path
       character(len=*), intent(in) :: path
       !> How it is taken
       integer(c_int), intent(in) :: flags
@@ -125,7 +124,6 @@ contains
 
    !> Position of what kind of file it is in `kind_words`.
    pure function kind_position(facts) result(position)
-      !> Its facts
       type(file_facts_t), intent(in) :: facts
       !> The position
       integer :: position

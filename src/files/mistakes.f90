@@ -177,7 +177,6 @@ contains
       type(mistakes_t), intent(in) :: mistakes
       !> Name of the deck
       character(len=*), intent(in) :: deck_name
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       integer :: pass, i
@@ -212,7 +211,6 @@ contains
 
    !> Order of the mistakes by line and column; those without a position last, equals as found.
    pure subroutine put_in_order(list, order)
-      !> The mistakes
       type(mistake_t), intent(in) :: list(:)
       !> Positions in order
       integer, intent(out) :: order(:)
@@ -248,7 +246,6 @@ contains
 
    !> Place, sentence, line and caret of a mistake.
    pure subroutine describe(mistake, deck_name, lines, text)
-      !> The mistake
       type(mistake_t), intent(in) :: mistake
       !> Name of the deck
       character(len=*), intent(in) :: deck_name
@@ -322,7 +319,6 @@ contains
 
    !> Move on to a byte where a character begins.
    pure subroutine step_to_character(text, place)
-      !> The text
       character(len=*), intent(in) :: text
       !> The position
       integer, intent(inout) :: place
@@ -353,7 +349,6 @@ contains
 
    !> Length of what is shown of a word.
    pure function shown_length(word) result(length)
-      !> The word
       character(len=*), intent(in) :: word
       !> The length
       integer :: length
@@ -375,7 +370,6 @@ contains
 
    !> A text with a blank for each tabulator or other control character, and a question mark for each byte that is no UTF-8.
    pure function printable(text) result(clean)
-      !> The text
       character(len=*), intent(in) :: text
       !> The same, of the same length
       character(len=len(text)) :: clean
@@ -412,7 +406,6 @@ contains
 
    !> Do all bytes continue a character?
    pure function all_continue(bytes) result(verdict)
-      !> The bytes
       character(len=*), intent(in) :: bytes
       !> Do they?
       logical :: verdict

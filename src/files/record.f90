@@ -42,7 +42,6 @@ contains
 
    !> Make room for more words.
    pure subroutine make_room(record, more)
-      !> The record
       type(record_t), intent(inout) :: record
       !> How many
       integer, intent(in) :: more

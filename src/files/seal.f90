@@ -80,7 +80,6 @@ contains
 
    !> Checksum of the beginning of a file.
    subroutine sum_up(file, words, sum, is_complete)
-      !> The file
       type(raw_file_t), intent(in) :: file
       !> How many words of it
       integer(int64), intent(in) :: words

@@ -151,7 +151,6 @@ contains
 
    !> Are there no control characters but tabulators and those between lines and pages?
    pure function is_text(text) result(verdict)
-      !> The text
       character(len=*), intent(in) :: text
       !> Are there none?
       logical :: verdict

@@ -48,7 +48,6 @@ contains
 
    !> Length of a text without the blanks at its end.
    pure function text_length(list, position) result(length)
-      !> The list
       type(text_list_t), intent(in) :: list
       !> Position, from 1
       integer, intent(in) :: position
@@ -89,7 +88,6 @@ contains
 
    !> Order of the texts, equals as they stand; by merging runs, so that long lists take little longer than short ones.
    pure subroutine put_in_order(list, order)
-      !> The list
       type(text_list_t), intent(in) :: list
       !> Places in order
       integer, intent(out) :: order(:)
@@ -122,7 +120,6 @@ contains
 
    !> Does the first of two runs that are merged give the next text?
    pure function takes_first(list, order, first, first_end, second, second_end) result(verdict)
-      !> The list
       type(text_list_t), intent(in) :: list
       !> Order before the merge
       integer, intent(in) :: order(:)
@@ -137,7 +134,6 @@ contains
 
    !> The field at an index.
    pure function field(list, position) result(text)
-      !> The list
       type(text_list_t), intent(in) :: list
       !> Position, from 1
       integer, intent(in) :: position

@@ -207,7 +207,6 @@ contains
 
    !> Geometry of the follower where it is: the cam's at the place of contact, lift and arms as they are.
    pure subroutine place_finger(model, train, now, position)
-      !> The model
       type(model_t), intent(in) :: model
       !> State of the train [state]
       real(wp), intent(in) :: train(:)
@@ -227,7 +226,6 @@ contains
 
    !> What a flexible train has beside a rigid one.
    pure subroutine take_values(model, angle, train, now, state, status)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle [rad]
       real(wp), intent(in) :: angle

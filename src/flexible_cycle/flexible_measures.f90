@@ -200,7 +200,6 @@ contains
 
    !> Take a point into the measures.
    subroutine add_point(model, angle, state, resolution, weight, top, values, last, touches, error)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle [rad]
       real(wp), intent(in) :: angle
@@ -275,7 +274,6 @@ contains
 
    !> Is a plunger on its lower stop?
    pure function is_on_stop(given, place) result(is_low)
-      !> The adjuster
       type(lash_adjuster_t), intent(in) :: given
       !> Place of the plunger [m]
       real(wp), intent(in) :: place
@@ -369,7 +367,6 @@ contains
 
    !> Take the spring's modes into the measures.
    pure subroutine add_spring(model, state, values)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)

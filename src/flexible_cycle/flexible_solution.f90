@@ -233,9 +233,7 @@ contains
 
    !> Measures of all turns, and what they come to.
    subroutine take_measures(solution, model, error)
-      !> The solution
       type(flexible_solution_t), intent(inout) :: solution
-      !> The model
       type(model_t), intent(in) :: model
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
@@ -290,7 +288,6 @@ contains
    !> Error of the last turn: its difference from one with a finer tolerance, which errs less and starts where that has its periodic
    !> state.
    subroutine estimate_error(solution, turn, error)
-      !> The solution
       type(flexible_solution_t), intent(inout) :: solution
       !> What integrates
       type(turn_t), intent(inout) :: turn
@@ -343,7 +340,6 @@ contains
    !> start: where a disturbance lasts, many times the error of a turn. Without a period of one turn it is the start of the last
    !> turn.
    subroutine start_finer(solution, turn, state, error)
-      !> The solution
       type(flexible_solution_t), intent(inout) :: solution
       !> What integrates, with the finer tolerance
       type(turn_t), intent(inout) :: turn

@@ -93,7 +93,6 @@ contains
    function find_turning(path, step, from, to, which) result(angle)
       !> The turn
       type(trajectory_t), intent(in) :: path
-      !> The step
       integer, intent(in) :: step
       !> Angles between which it turns once [rad]
       real(wp), intent(in) :: from, to
@@ -123,13 +122,11 @@ contains
 
    !> How far from a turning the friction of each joint that turns is largest.
    function spike_ways(model, path, resolution, step, turning, length, which) result(ways)
-      !> The model
       type(model_t), intent(in) :: model
       !> The turn
       type(trajectory_t), intent(in) :: path
       !> What its integration did not tell apart
       type(resolution_t), intent(in) :: resolution
-      !> The step
       integer, intent(in) :: step
       !> Angle of the turning, length of the part it is in [rad]
       real(wp), intent(in) :: turning, length

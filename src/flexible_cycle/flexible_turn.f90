@@ -162,7 +162,6 @@ contains
 
    !> Rate of the sliding speed that friction gives to a roller at most: by the load at full lift without inertia.
    function sliding_rate(model) result(rate)
-      !> The model
       type(model_t), intent(in) :: model
       !> The rate [m/s per rad]
       real(wp) :: rate

@@ -153,7 +153,6 @@ contains
 
    !> Remarks on the seat: the valve stays off it, or gas presses the valve into it.
    subroutine judge_seat(model, solution, speed, remarks)
-      !> Model
       type(model_t), intent(in) :: model
       !> Solution of its train
       type(flexible_solution_t), intent(in) :: solution

@@ -95,7 +95,6 @@ contains
    !> Part of what dampers take that gas on a closed valve pays: that of the gas in gas and inertia, which bring energy to the seat
    !> and to the finger. The spring gives while the valve sinks what it takes while it rises; inertia brings that of an impact.
    pure function gas_share(model, now) result(share)
-      !> The model
       type(model_t), intent(in) :: model
       !> Everything at the state
       type(flexible_state_t), intent(in) :: now
@@ -113,7 +112,6 @@ contains
       type(model_t), intent(in) :: model
       !> Everything at the state
       type(flexible_state_t), intent(in) :: now
-      !> The powers
       type(powers_t), intent(inout) :: powers
 
       ! Density over that at ambient pressure [-]; work to the pressures of chamber, supply and leak's end [Pa]
@@ -133,7 +131,6 @@ contains
 
    !> Rate of the energy that is stored, without the roller's spin.
    pure function stored_rate(model, state, now) result(rate)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)

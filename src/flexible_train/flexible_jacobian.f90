@@ -115,7 +115,6 @@ contains
 
    !> How geometry follows.
    pure subroutine turn_geometry(model, state, now, turns)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)
@@ -155,7 +154,6 @@ contains
 
    !> How load, friction and what they do to finger and roller follow.
    pure subroutine follow_forces(model, now, turns, follow)
-      !> The model
       type(model_t), intent(in) :: model
       !> Everything at the state
       type(flexible_state_t), intent(in) :: now
@@ -226,7 +224,6 @@ contains
 
    !> The spin over which the bearing's torque reverses goes with the cam's speed.
    pure subroutine add_reversal(model, now, follow)
-      !> The model
       type(model_t), intent(in) :: model
       !> Everything at the state
       type(flexible_state_t), intent(in) :: now
@@ -240,7 +237,6 @@ contains
 
    !> How the roller's spin relative to the finger follows.
    pure function spin_changes(model, turns) result(spin)
-      !> The model
       type(model_t), intent(in) :: model
       !> How geometry follows
       type(turns_t), intent(in) :: turns
@@ -257,7 +253,6 @@ contains
    !> How friction follows: the contact's own slopes along load, entrainment, radius, sliding speed, spin and, where surfaces change
    !> as they run, place on the cam.
    pure subroutine follow_friction(model, now, turns, follow, traction, rolling)
-      !> The model
       type(model_t), intent(in) :: model
       !> Everything at the state
       type(flexible_state_t), intent(in) :: now
@@ -311,7 +306,6 @@ contains
 
    !> Accelerations of finger and pivot over the six variables, the pad's force as it is.
    pure subroutine finger_slopes(model, state, now, follow, inverse, finger, pivot)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)
@@ -347,7 +341,6 @@ contains
 
    !> Rate of the sliding speed over the six variables, with the accelerations' own slopes.
    pure function sliding_slopes(model, state, now, turns, follow, finger, pivot) result(slopes)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)
@@ -392,7 +385,6 @@ contains
 
    !> Rate of the sliding speed by accelerations of finger and pivot.
    pure function sliding_force(model, now, finger, pivot) result(rate)
-      !> The model
       type(model_t), intent(in) :: model
       !> Everything at the state
       type(flexible_state_t), intent(in) :: now
@@ -406,7 +398,6 @@ contains
 
    !> Put slopes over the six variables, and over lift and speed of the valve and pressure, into their places.
    pure subroutine put(model, row, slopes, beyond, jacobian, angle_slope)
-      !> The model
       type(model_t), intent(in) :: model
       !> Row of the matrix
       integer, intent(in) :: row
@@ -451,7 +442,6 @@ contains
 
    !> The valve's and the spring's equations.
    pure subroutine put_valve(model, angle, now, pad, jacobian, angle_slope)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle [rad]
       real(wp), intent(in) :: angle

@@ -87,7 +87,6 @@ contains
 
    !> Motion of pad and stem along one of their six variables.
    pure function motion_along(model, state, now, pad, variable) result(motion)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)

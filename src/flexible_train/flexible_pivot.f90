@@ -76,7 +76,6 @@ contains
 
    !> Moment of the friction for a force of the ball and a rate of the finger.
    pure function friction_at(pivot, force, rate) result(moment)
-      !> The pivot
       type(pivot_part_t), intent(in) :: pivot
       !> Size of the force [N], rate [rad/s]
       type(dual_t), intent(in) :: force, rate

@@ -76,7 +76,6 @@ contains
 
    !> Rate of change of the state with the cam angle.
    subroutine get_rate(self, time, state, rate, status)
-      !> The problem
       class(flexible_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
@@ -100,7 +99,6 @@ contains
 
    !> Rate and Jacobian from one evaluation.
    subroutine linearise(self, time, state, horizon, linear, counters, status)
-      !> The problem
       class(flexible_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
@@ -174,7 +172,6 @@ contains
 
    !> Factors of the matrix of a step, by the structure of the train.
    subroutine factorise(self, linear, shift, factors, status)
-      !> The problem
       class(flexible_problem_t), intent(in) :: self
       !> Rate and derivatives
       type(linear_t), intent(in) :: linear
@@ -192,11 +189,9 @@ contains
 
    !> Solve with these factors.
    subroutine solve(self, linear, factors, right_side)
-      !> The problem
       class(flexible_problem_t), intent(in) :: self
       !> Rate and derivatives of which the factors are
       type(linear_t), intent(in) :: linear
-      !> The factors
       type(factors_t), intent(in) :: factors
       !> In: right-hand side [state/rad]; out: solution [state]
       real(wp), intent(inout) :: right_side(:)
@@ -209,7 +204,6 @@ contains
    !> Approach of cam and roller, of the pad, of the seat: contact is lost or returns where one passes through zero. Kinks of the
    !> lift that the roller has passed: it meets them where the cam is nearest, some micrometres before or behind a rigid one.
    subroutine get_switches(self, time, state, switches, status)
-      !> The problem
       class(flexible_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
@@ -239,7 +233,6 @@ contains
 
    !> A cam angle in the words of messages, as files count it.
    function name_time(self, time) result(text)
-      !> The problem
       class(flexible_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time

@@ -188,7 +188,6 @@ contains
 
    !> A one-sided spring.
    pure subroutine push(spring, stiffness, damping, approach, rate)
-      !> The spring
       type(push_t), intent(out) :: spring
       !> Stiffness [N/m], damping [s/m]
       real(wp), intent(in) :: stiffness, damping
@@ -202,7 +201,6 @@ contains
 
    !> Load, film and friction of cam and roller.
    pure subroutine set_contact(model, state, resolution, now)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)
@@ -240,7 +238,6 @@ contains
 
    !> Speeds of the surfaces: `V_c = S (1 - r_R kappa)`, `V_roll = S - omega r_R`.
    pure subroutine set_surface_speeds(model, state, touch, contact)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)
@@ -282,7 +279,6 @@ contains
 
    !> Pad, seat, gas, guide and spring.
    pure subroutine set_valve_forces(model, angle, state, now)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle [rad]
       real(wp), intent(in) :: angle
@@ -370,7 +366,6 @@ contains
 
    !> Accelerations of valve, finger and pivot, roller.
    pure subroutine accelerate(model, state, now)
-      !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)

@@ -61,7 +61,6 @@ contains
       integer, intent(in) :: version
       !> What they are: the name of an element of FMI 3.0, in the plural one of 2.0
       character(len=*), intent(in) :: part
-      !> The variables
       type(variable_t), intent(in) :: variables(:)
       !> Text to extend
       character(len=:), allocatable, intent(inout) :: text
@@ -79,7 +78,6 @@ contains
 
    !> All units, each once.
    subroutine add_units(variables, text)
-      !> The variables
       type(variable_t), intent(in) :: variables(:)
       !> Text to extend
       character(len=:), allocatable, intent(inout) :: text
@@ -100,7 +98,6 @@ contains
 
    !> One unit and what it is in the base units of the SI, by which tools convert values and tell units that do not fit.
    subroutine add_unit(unit, text)
-      !> The unit
       character(len=*), intent(in) :: unit
       !> Text to extend
       character(len=:), allocatable, intent(inout) :: text
@@ -125,7 +122,6 @@ contains
    subroutine add_variable(version, number, variable, text)
       !> Version of FMI, number of the variable
       integer, intent(in) :: version, number
-      !> The variable
       type(variable_t), intent(in) :: variable
       !> Text to extend
       character(len=:), allocatable, intent(inout) :: text
@@ -165,7 +161,6 @@ contains
 
    !> A letter as XML has it.
    pure function escaped(letter) result(word)
-      !> The letter
       character(len=1), intent(in) :: letter
       !> What stands for it
       character(len=6) :: word

@@ -162,7 +162,6 @@ contains
 
    !> The tables of the deck, and their names there.
    subroutine add_tables(deck, members, error)
-      !> The deck
       type(deck_t), intent(inout) :: deck
       !> Files so far
       type(member_t), allocatable, intent(inout) :: members(:)

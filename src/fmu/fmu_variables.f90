@@ -130,7 +130,6 @@ contains
    pure subroutine append(variables, one)
       !> The list
       type(variable_t), allocatable, intent(inout) :: variables(:)
-      !> The variable
       type(variable_t), intent(in) :: one
 
       type(variable_t), allocatable :: longer(:)
@@ -143,7 +142,6 @@ contains
 
    !> Parameters: the numbers that the deck gives, but for its operating point.
    subroutine add_keys(deck, variables)
-      !> The deck
       type(deck_t), intent(in) :: deck
       !> List to extend
       type(variable_t), allocatable, intent(inout) :: variables(:)
@@ -171,7 +169,6 @@ contains
 
    !> Outputs: what the camshafts, or the follower of a cam, come to at the end of a step.
    subroutine add_series(case, cam, variables)
-      !> The case
       type(case_t), intent(in) :: case
       !> The cam, 0 for the camshafts
       integer, intent(in) :: cam

@@ -95,7 +95,6 @@ contains
 
    !> A whole number as bytes, the least first.
    pure function little(number, count) result(text)
-      !> The number
       integer(int64), intent(in) :: number
       !> Number of bytes
       integer, intent(in) :: count

@@ -71,7 +71,6 @@ contains
 
    !> Is the balance a roller at rest on the cam, held there by friction?
    subroutine find_rest(model, angle, rolling, decay_rate, is_found, status)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -138,7 +137,6 @@ contains
 
    !> Sliding speed of the quasi-static balance from one nearby, by Newton's method with the slope at constant film and load.
    subroutine improve_balance(model, position, moments, tolerance, sliding_speed, decay_rate, evaluations, is_found)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -182,7 +180,6 @@ contains
 
    !> dV_s/dtheta at a sliding speed.
    subroutine sliding_rate(model, position, moments, sliding_speed, accuracy, contact, rate, start)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position

@@ -135,7 +135,6 @@ contains
 
    !> Load with the friction of a contact nearby, and its film ratio.
    pure subroutine start_nearby(model, position, moment, hinge, nearby, contact)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -171,7 +170,6 @@ contains
    !> Friction changes the load by a few per cent at most, so the second evaluation is good to about 1e-5 and the third to
    !> 1e-10. Without a load at which friction lets the balance be, contact is lost.
    pure subroutine balance_finger(model, position, moment, hinge, enough, contact, basis, status)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -266,7 +264,6 @@ contains
 
    !> Move a contact along its slopes by the last, small step. The load is then the one that balances the forces there.
    pure subroutine shift_contact(model, position, moment, basis, hinge, slopes, shift, contact)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -313,7 +310,6 @@ contains
    !> Load that balances the forces which a contact has, and the torque of a bearing that is in proportion to it: one step,
    !> so small that it is exact, so that no energy is lost between them.
    pure subroutine rebalance(model, position, moment, setting, hinge, contact)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position

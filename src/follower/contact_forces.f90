@@ -68,7 +68,6 @@ contains
 
    !> Torque of the roller's bearing that the oil makes in it, whatever the load.
    pure function oil_drag(model, spin) result(torque)
-      !> The model
       type(model_t), intent(in) :: model
       !> Spin of the roller relative to the finger [rad/s]
       real(wp), intent(in) :: spin
@@ -109,7 +108,6 @@ contains
 
    !> Does the roller turn on a pin with an oil film?
    pure function has_pin_film(model) result(has)
-      !> The model
       type(model_t), intent(in) :: model
       !> Does it?
       logical :: has

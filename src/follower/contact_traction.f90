@@ -90,7 +90,6 @@ contains
 
    !> Boundary friction at a temperature of the surfaces.
    pure subroutine set_boundary(model, setting, rise, contact, parts)
-      !> The model
       type(model_t), intent(in) :: model
       !> What does not change with the load
       type(setting_t), intent(in) :: setting
@@ -123,7 +122,6 @@ contains
 
    !> Is the film sheared at the temperature of the contact?
    pure function has_hot_film(model) result(verdict)
-      !> The model
       type(model_t), intent(in) :: model
       !> Is it?
       logical :: verdict
@@ -134,7 +132,6 @@ contains
 
    !> Shear of the film with its limit, over all of the contact, at a rise of its temperature.
    pure subroutine set_shear(model, setting, contact, peak, rise, parts)
-      !> The model
       type(model_t), intent(in) :: model
       !> What does not change with the load
       type(setting_t), intent(in) :: setting
@@ -196,7 +193,6 @@ contains
    !> The same where the stress is limited at each point: force and slopes are those of the limited shear, and the load has no part
    !> in the limit but by the pressure.
    pure subroutine set_local_shear(model, setting, contact, peak, rise, parts)
-      !> The model
       type(model_t), intent(in) :: model
       !> What does not change with the load
       type(setting_t), intent(in) :: setting
@@ -257,7 +253,6 @@ contains
    !> Rise of the surfaces' temperature that the heat of friction keeps, whose boundary part follows that temperature, and friction
    !> there. The search starts at the oil's temperature, so that a contact nearby has no part in the choice among several roots.
    pure subroutine warm_surfaces(model, setting, peak, contact, parts)
-      !> The model
       type(model_t), intent(in) :: model
       !> What does not change with the load
       type(setting_t), intent(in) :: setting
@@ -294,7 +289,6 @@ contains
 
    !> Rise of the temperature that the heat of the shear at that temperature keeps, and the shear there.
    pure subroutine warm_film(model, setting, peak, contact, parts)
-      !> The model
       type(model_t), intent(in) :: model
       !> What does not change with the load
       type(setting_t), intent(in) :: setting

@@ -69,7 +69,6 @@ contains
 
    !> Angles at which something changes: one of the switches its sign, or friction its direction.
    subroutine find_changes(model, edges, angles)
-      !> The model
       type(model_t), intent(in) :: model
       !> Ends of the pieces of the lift [rad]
       real(wp), intent(in) :: edges(:)
@@ -85,7 +84,6 @@ contains
    !> Add the angles at which one of the switches changes its sign, found by a scan, and near the lowest of three values by a
    !> search.
    subroutine add_switches(model, edges, angles)
-      !> The model
       type(model_t), intent(in) :: model
       !> Ends of the pieces of the lift [rad]
       real(wp), intent(in) :: edges(:)
@@ -151,7 +149,6 @@ contains
    !> Add the angles at which a switch changes its sign and changes it back between three angles of the scan, if there are any:
    !> where the one in the middle is so close to zero that the next values rise by more than itself, its extreme is looked for.
    subroutine add_short_change(model, kind, places, values, angles)
-      !> The model
       type(model_t), intent(in) :: model
       !> Which of the switches
       integer, intent(in) :: kind
@@ -205,7 +202,6 @@ contains
    !> Angles at which the valve turns round, sets off or comes to rest, and at which the pad's contact with the tip passes the
    !> pivot's height.
    subroutine find_turnings(model, edges, with_tip, distance, turnings)
-      !> The model
       type(model_t), intent(in) :: model
       !> Ends of the pieces of the lift [rad]
       real(wp), intent(in) :: edges(:)
@@ -365,7 +361,6 @@ contains
 
    !> Quantities with whose sign friction changes its direction: slope of the lift and height of the tip's contact over the pivot.
    pure function turning_values(model, angle) result(values)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -386,7 +381,6 @@ contains
    !> Quantities whose sign matters: lift above that where the valve leaves its seat, and the moment that keeps contact, or, with
    !> the larger of both loads, the moment beyond that of the base circle load.
    pure function switches(model, angle) result(values)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -411,7 +405,6 @@ contains
 
    !> Angle at which one of the switches changes its sign.
    function switch_angle(model, kind, left, right, value_left, value_right, values_at) result(angle)
-      !> The model
       type(model_t), intent(in) :: model
       !> Which of the switches
       integer, intent(in) :: kind

@@ -63,7 +63,6 @@ contains
 
    !> Is there a sliding speed at which friction lifts the roller off, with a rolling resistance that hardly falls with the load?
    function is_lost_at_once(model, angle, largest) result(verdict)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -120,7 +119,6 @@ contains
 
    !> Is the finger in balance at several loads for one sliding speed?
    pure function has_several_loads(model, position, moments, sliding_speed) result(verdict)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position

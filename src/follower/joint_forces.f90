@@ -74,7 +74,6 @@ contains
 
    !> The same with the forces at the valve's end, where the case has joints.
    pure function moment_with(model, position, moments, stem) result(moment)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -301,7 +300,6 @@ contains
 
    !> Forces at the valve's end of the finger.
    pure subroutine set_stem(model, position, moments, axial_slope, stem, gain)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -335,7 +333,6 @@ contains
 
    !> Speed of the cam with its change over the cam angle.
    pure function cam_speed(model, gain) result(speed)
-      !> The model
       type(model_t), intent(in) :: model
       !> The change; absent: none [rad/s/rad]
       real(wp), intent(in), optional :: gain
@@ -360,7 +357,6 @@ contains
 
    !> Its derivative over the cam angle, from that of the sum of the moments less the finger's.
    pure function axial_slope(model, position, moments, moment_slope, gain) result(slope)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -397,7 +393,6 @@ contains
 
    !> Forces on the finger but for load and traction, and the directions of these.
    pure subroutine place_forces(model, position, stem, forces, gain)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position

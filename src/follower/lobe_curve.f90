@@ -327,7 +327,6 @@ contains
 
    !> Piece that holds a cam angle, and the shares of its points in the polynomial there.
    pure subroutine find_piece(curve, angle, piece, shares)
-      !> The curve
       type(lobe_curve_t), intent(in) :: curve
       !> Cam angle from full lift, of any turn [rad]
       real(wp), intent(in) :: angle

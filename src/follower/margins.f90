@@ -124,7 +124,6 @@ contains
    !> Which pieces between stops belong to the event: those with the valve off its seat; where it never leaves it, those without a
    !> valve at rest; else all.
    function is_event(model, ends) result(in_event)
-      !> The model
       type(model_t), intent(in) :: model
       !> Ends of the pieces [rad]
       real(wp), intent(in) :: ends(:)
@@ -149,7 +148,6 @@ contains
 
    !> Lower margins to what the forces have between two angles.
    subroutine scan_piece(model, adjuster, ends, contact, pivot, pump_up)
-      !> The model
       type(model_t), intent(in) :: model
       !> Force of the adjuster [N]
       real(wp), intent(in) :: adjuster
@@ -180,7 +178,6 @@ contains
 
    !> Lower a margin to what one of the forces has in a scan and between its points.
    subroutine lower_margin(model, kind, adjuster, angles, splits, margin)
-      !> The model
       type(model_t), intent(in) :: model
       !> Which of the forces
       integer, intent(in) :: kind
@@ -190,7 +187,6 @@ contains
       real(wp), intent(in) :: angles(:)
       !> The force there
       type(split_t), intent(in) :: splits(:)
-      !> The margin
       type(margin_t), intent(inout) :: margin
 
       ! Forces [N] and relative inertia [-] at the angles
@@ -213,7 +209,6 @@ contains
 
    !> Lowest value of a scan and between its points.
    subroutine find_lowest(model, kind, adjuster, is_ratio, angles, values, lowest, place)
-      !> The model
       type(model_t), intent(in) :: model
       !> Which of the forces
       integer, intent(in) :: kind
@@ -247,7 +242,6 @@ contains
 
    !> The first of the forces at a cam angle, as many as are wanted.
    subroutine take_forces(model, adjuster, angle, splits)
-      !> The model
       type(model_t), intent(in) :: model
       !> Force of the adjuster [N]
       real(wp), intent(in) :: adjuster
@@ -285,7 +279,6 @@ contains
 
    !> Force of the lash adjuster that presses the roller on the base circle with the base circle load.
    function adjuster_force(model) result(force)
-      !> The model
       type(model_t), intent(in) :: model
       !> The force [N]
       real(wp) :: force

@@ -56,7 +56,6 @@ contains
 
    !> Take that step. It is a procedure of its own since most sliding speeds are where they have to be, and its room is large.
    subroutine take_step(model, angle, slope, rate, span, reach, state, sliding_speed, is_moved)
-      !> The model
       type(model_t), intent(in), target :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle

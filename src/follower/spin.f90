@@ -65,7 +65,6 @@ contains
 
    !> Rate of change of the state with the cam angle.
    subroutine get_rate(self, time, state, rate, status)
-      !> The problem
       class(spin_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
@@ -100,7 +99,6 @@ contains
 
    !> Decay rate of a disturbance of the spin per radian, with film and load following the slip.
    subroutine get_decay_rate(self, time, state, decay_rate)
-      !> The problem
       class(spin_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
@@ -342,7 +340,6 @@ contains
 
    !> From the sliding speed to that without entrainment, where the film collapses and friction may hold the roller.
    subroutine get_clearance(self, time, state, clearance)
-      !> The problem
       class(spin_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
@@ -363,7 +360,6 @@ contains
 
    !> Largest traction that the contact can make up, friction in the load left out [N]; zero without contact.
    pure function largest_traction(model, position, moments) result(traction)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -379,7 +375,6 @@ contains
 
    !> A cam angle in the words of messages, as files count it.
    function name_time(self, time) result(text)
-      !> The problem
       class(spin_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
@@ -392,7 +387,6 @@ contains
 
    !> Sliding speed that belongs to a state.
    pure function sliding_speed_of(problem, position, state) result(sliding_speed)
-      !> The problem
       class(spin_problem_t), intent(in) :: problem
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -434,7 +428,6 @@ contains
 
    !> Second derivative of the speed in pure rolling; by a difference of geometry where it would take the lift's fourth derivative.
    pure function rolling_speed_curvature(model, position, angle, horizon) result(curvature)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position

@@ -152,7 +152,6 @@ contains
 
    !> Change of the bearing's torque with that of the spin over which it reverses, which goes with the cam's speed.
    pure function by_reversal(model, contact, basis, gain) result(slope)
-      !> The model
       type(model_t), intent(in) :: model
       !> State of the contact
       type(contact_t), intent(in) :: contact
@@ -169,7 +168,6 @@ contains
 
    !> What a change of the sliding speed moves at constant load.
    pure function speed_motion(model, contact) result(motion)
-      !> The model
       type(model_t), intent(in) :: model
       !> State of the contact
       type(contact_t), intent(in) :: contact
@@ -183,7 +181,6 @@ contains
 
    !> Derivative of the sum of the moments over the cam angle. A cam that gains speed adds that of the masses.
    pure function slope_of_moments(model, angle, position, gain) result(slope)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -213,7 +210,6 @@ contains
 
    !> What a change of the cam angle moves at constant load and sliding speed.
    pure function angle_motion(model, position, contact, gain) result(motion)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -242,7 +238,6 @@ contains
 
    !> How the load follows through `W h_W + sense (T' h_t + T_B) = moment + M_pivot`.
    pure subroutine follow_balance(model, position, moments, contact, moment_slope, gain, changes, load_by_speed, load_by_angle)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -275,7 +270,6 @@ contains
 
    !> Take the friction of the pivot from the changes of the moment that the contact makes.
    pure subroutine follow_pivot(model, position, moments, contact, moment_slope, gain, changes, moment)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
@@ -311,7 +305,6 @@ contains
 
    !> Change of the angular acceleration along a motion with the load that goes with it.
    pure function slope_along(model, slopes, by_load, load) result(slope)
-      !> The model
       type(model_t), intent(in) :: model
       !> Changes at constant load, changes with ln(load)
       type(slopes_t), intent(in) :: slopes, by_load
@@ -341,7 +334,6 @@ contains
 
    !> Angular acceleration that forces make, or its change by theirs.
    pure function acceleration_of(model, traction, rolling_resistance, bearing_torque) result(acceleration)
-      !> The model
       type(model_t), intent(in) :: model
       !> Traction, rolling resistance [N]
       real(wp), intent(in) :: traction, rolling_resistance

@@ -197,9 +197,7 @@ contains
 
    !> Angular acceleration of the roller in a contact.
    pure function acceleration_in(model, contact) result(acceleration)
-      !> The model
       type(model_t), intent(in) :: model
-      !> The contact
       type(contact_t), intent(in) :: contact
       !> The acceleration [rad/s^2]
       real(wp) :: acceleration
@@ -247,7 +245,6 @@ contains
 
    !> Torque of the drag that is a loss of its own: that of a pin with a film belongs to its bearing.
    pure function needle_drag(model, contact) result(torque)
-      !> The model
       type(model_t), intent(in) :: model
       !> State of the contact
       type(contact_t), intent(in) :: contact
@@ -261,7 +258,6 @@ contains
    !> Losses of a follower as torques: one line for each loss of `torque_list`. The bookkeeping of the source puts the friction of
    !> the contact on the arm of the tangent, and lets the bearing slide by the whole spin of the roller.
    pure subroutine add_losses(model, state, joints)
-      !> The model
       type(model_t), intent(in) :: model
       !> State with its contact solved, and torques of zero
       type(state_t), intent(inout) :: state
@@ -315,7 +311,6 @@ contains
 
    !> Friction of the contact as it is reported. Source: Islam (2019) eq. (40).
    pure subroutine add_friction(model, state)
-      !> The model
       type(model_t), intent(in) :: model
       !> State with its contact solved
       type(state_t), intent(inout) :: state
@@ -329,7 +324,6 @@ contains
 
    !> Energy residual: torque of the cam's equilibrium, which is independent of how losses are added up, less losses and storage.
    pure subroutine add_residual(model, state)
-      !> The model
       type(model_t), intent(in) :: model
       !> State with its torques
       type(state_t), intent(inout) :: state

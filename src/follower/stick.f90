@@ -118,7 +118,6 @@ contains
 
    !> Rate of the sliding speed at rest with a part of the boundary friction.
    pure subroutine rate_at_rest(model, position, moments, share, rate, status)
-      !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position

@@ -71,7 +71,6 @@ contains
       type(hdf5_object_t), intent(in) :: object
       !> Name of the attribute
       character(len=*), intent(in) :: name
-      !> The number
       integer, intent(in), target :: number
       !> File error
       type(error_t), allocatable, intent(out) :: error

@@ -60,7 +60,6 @@ contains
       class(hdf5_columns_t), intent(in) :: self
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> Its columns
       type(column_t), allocatable, intent(out) :: columns(:)
       !> File error
       type(error_t), allocatable, intent(out) :: error

@@ -185,7 +185,6 @@ contains
    subroutine get_descriptor(file, descriptor)
       !> An open file
       type(hdf5_object_t), intent(in) :: file
-      !> The descriptor
       integer(c_int), intent(out) :: descriptor
 
       type(c_ptr) :: address
@@ -363,7 +362,6 @@ contains
    subroutine write_integer(dataset, number, error)
       !> A dataset without axes
       type(hdf5_object_t), intent(in) :: dataset
-      !> The number
       integer, intent(in), target :: number
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -375,7 +373,6 @@ contains
    subroutine write_run_of_integers(dataset, numbers, error)
       !> A dataset with one axis
       type(hdf5_object_t), intent(in) :: dataset
-      !> The numbers
       integer, intent(in), target, contiguous :: numbers(:)
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -415,7 +412,6 @@ contains
    subroutine create_dataset(parent, name, value_type, extents, chunk, compression, dataset, error)
       !> File or group to create it in
       type(hdf5_object_t), intent(in) :: parent
-      !> Its name
       character(len=*), intent(in) :: name
       !> Type of its values
       integer(hid_t), intent(in) :: value_type
@@ -454,7 +450,6 @@ contains
 
    !> Write a block of a dataset.
    subroutine write_block(dataset, memory_type, first, extents, address, error)
-      !> The dataset
       type(hdf5_object_t), intent(in) :: dataset
       !> Type of the values in memory
       integer(hid_t), intent(in) :: memory_type

@@ -154,7 +154,6 @@ contains
    function visit_entry(position, entry, sink) bind(C) result(status)
       !> Position in the stack, from 0
       integer(c_int), value :: position
-      !> The entry
       type(stack_entry_t), intent(in) :: entry
       !> Address of a `reason_t`
       type(c_ptr), value :: sink

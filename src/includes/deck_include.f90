@@ -72,7 +72,6 @@ contains
    recursive subroutine add_file(file, folder, depth, whole, files, mistakes)
       !> Position of the file
       integer, intent(in) :: file
-      !> Its folder
       character(len=*), intent(in) :: folder
       !> How many files lie between it and the deck, itself counted
       integer, intent(in) :: depth
@@ -162,7 +161,6 @@ contains
 
    !> Find a line that includes a file, and whether a group is open behind a line.
    pure subroutine find_include(line, is_open, request)
-      !> The line
       character(len=*), intent(in) :: line
       !> Is a group open?
       logical, intent(inout) :: is_open
@@ -192,7 +190,6 @@ contains
 
    !> Take a word and the `=` behind it.
    pure subroutine take_word(line, wanted, first, is_there)
-      !> The line
       character(len=*), intent(in) :: line
       !> The word, in lower case
       character(len=*), intent(in) :: wanted
@@ -214,7 +211,6 @@ contains
 
    !> Take a text in quotes, blanks around it and a comma behind it.
    pure subroutine take_quoted(line, first, text)
-      !> The line
       character(len=*), intent(in) :: line
       !> Where to begin; then where the next word begins
       integer, intent(inout) :: first
@@ -237,7 +233,6 @@ contains
 
    !> Take the groups that are left out, up to the end of the line or a comment.
    pure subroutine take_without(line, first, without, is_right)
-      !> The line
       character(len=*), intent(in) :: line
       !> Where to begin
       integer, intent(inout) :: first
@@ -275,7 +270,6 @@ contains
 
    !> Follow groups over a line.
    pure subroutine follow_groups(line, is_open)
-      !> The line
       character(len=*), intent(in) :: line
       !> Is a group open? Then: behind the line
       logical, intent(inout) :: is_open

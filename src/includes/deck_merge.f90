@@ -109,7 +109,6 @@ contains
    subroutine leave_out(origins, plan, mistakes)
       !> Where lines are from
       type(origins_t), intent(in) :: origins
-      !> The plan
       type(plan_t), intent(inout) :: plan
       !> Mistakes so far: a group that is not there
       type(mistakes_t), intent(inout) :: mistakes
@@ -145,7 +144,6 @@ contains
    pure subroutine name_groups(files, plan, file, words)
       !> All files
       type(source_file_t), intent(in) :: files(:)
-      !> The plan
       type(plan_t), intent(in) :: plan
       !> Position of the file
       integer, intent(in) :: file
@@ -165,7 +163,6 @@ contains
 
    !> Find where each group comes to stand: where the first file has it; a file stands before those that it includes.
    pure subroutine find_homes(plan)
-      !> The plan
       type(plan_t), intent(inout) :: plan
 
       integer :: i, k
@@ -186,7 +183,6 @@ contains
    pure subroutine replace_keys(files, plan)
       !> All files
       type(source_file_t), intent(in) :: files(:)
-      !> The plan
       type(plan_t), intent(inout) :: plan
 
       integer :: upper, lower, i
@@ -210,11 +206,9 @@ contains
 
    !> Has a group a key?
    pure function has_key(plan, part, key) result(verdict)
-      !> The plan
       type(plan_t), intent(in) :: plan
       !> Position of the group
       integer, intent(in) :: part
-      !> The key
       character(len=*), intent(in) :: key
       !> Has it?
       logical :: verdict
@@ -237,7 +231,6 @@ contains
    subroutine complain_of_equals(files, plan, mistakes)
       !> All files
       type(source_file_t), intent(in) :: files(:)
-      !> The plan
       type(plan_t), intent(in) :: plan
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -270,7 +263,6 @@ contains
       type(deck_text_t), intent(in) :: shape
       !> Position of the key
       integer, intent(in) :: position
-      !> Lines
       type(text_lines_t), intent(inout) :: kept
 
       character(len=:), allocatable :: line
@@ -298,7 +290,6 @@ contains
 
    !> Blank some columns of a line.
    pure subroutine blank_columns(lines, number, first, last)
-      !> The lines
       type(text_lines_t), intent(inout) :: lines
       !> Number of the line
       integer, intent(in) :: number
@@ -334,9 +325,7 @@ contains
 
    !> Write the text with each group in one place.
    subroutine put_together(plan, text, origins)
-      !> The plan
       type(plan_t), intent(inout) :: plan
-      !> The text
       character(len=:), allocatable, intent(inout) :: text
       !> Where its lines are from
       type(origins_t), intent(inout) :: origins

@@ -49,9 +49,7 @@ contains
 
    !> Shape of the cam of a model, looked at a quarter of a degree apart, and beside the largest of what is looked for between them.
    subroutine get_shape(model, shape)
-      !> The model
       type(model_t), intent(in) :: model
-      !> The shape
       type(shape_t), intent(out) :: shape
 
       type(position_t) :: position
@@ -110,9 +108,7 @@ contains
 
    !> Look for the largest value of one of these between the angles about the largest so far.
    subroutine narrow(model, which, angles, values, largest, place)
-      !> The model
       type(model_t), intent(in) :: model
-      !> Which one
       integer, intent(in) :: which
       !> Three cam angles from full lift [rad], and values there, the middle one largest [see there]
       real(wp), intent(in) :: angles(3), values(3)
@@ -186,7 +182,6 @@ contains
 
    !> Inertia of the finger, by which limits of contact and joint go, and whether it is that of no finger in particular.
    subroutine describe_finger(case, model, text)
-      !> The case
       type(case_t), intent(in) :: case
       !> Its first model
       type(model_t), intent(in) :: model
@@ -205,7 +200,6 @@ contains
 
    !> Oil and surfaces.
    subroutine describe_oil(case, model, text)
-      !> The case
       type(case_t), intent(in) :: case
       !> Its first model
       type(model_t), intent(in) :: model
@@ -239,7 +233,6 @@ contains
 
    !> What shear takes of the oil's viscosity, which no law of the model knows, where its data sheet says so.
    subroutine describe_hths(case, text)
-      !> The case
       type(case_t), intent(in) :: case
       !> Lines so far
       character(len=:), allocatable, intent(inout) :: text
@@ -258,7 +251,6 @@ contains
 
    !> Noise of a lift table and what smoothing does to it.
    subroutine describe_table(lift, text)
-      !> The lift
       type(lift_t), intent(in) :: lift
       !> Lines so far
       character(len=:), allocatable, intent(inout) :: text
@@ -278,7 +270,6 @@ contains
 
    !> One lobe.
    subroutine describe_cam(model, name, text)
-      !> Its model
       type(model_t), intent(in) :: model
       !> What it is called
       character(len=*), intent(in) :: name

@@ -65,9 +65,7 @@ contains
 
    !> Four panels of one lobe.
    subroutine add_lobe(lift, title, depth, body, error)
-      !> The lift
       type(lift_t), intent(in) :: lift
-      !> Its title
       character(len=*), intent(in) :: title
       !> Height of the lobes so far [unit]
       real(wp), intent(inout) :: depth
@@ -93,7 +91,6 @@ contains
 
    !> Curves of a lift and its derivatives: differences of the rows of a table first, the curve of the case last.
    subroutine find_curves(lift, curves, error)
-      !> The lift
       type(lift_t), intent(in) :: lift
       !> Its curves, for each derivative
       type(curve_t), allocatable, intent(out) :: curves(:, :)
@@ -135,7 +132,6 @@ contains
 
    !> A lift and its derivatives.
    subroutine sample(lift, first, last, colour, words, curves, error)
-      !> The lift
       type(lift_t), intent(in) :: lift
       !> Ends of the event [rad from full lift]
       real(wp), intent(in) :: first, last
@@ -172,7 +168,6 @@ contains
    !> Rows of a lift table, and their divided differences of the orders 1 to 3, each drawn in the middle of the rows that it is made
    !> of.
    subroutine take_differences(lift, curves)
-      !> The lift
       type(lift_t), intent(in) :: lift
       !> Gets the curves
       type(curve_t), intent(inout) :: curves(0:)
@@ -197,7 +192,6 @@ contains
 
    !> Names of the curves in their colours.
    subroutine add_legend(curves, place, body)
-      !> The curves
       type(curve_t), intent(in) :: curves(:)
       !> Height [unit]
       real(wp), intent(in) :: place
@@ -214,7 +208,6 @@ contains
 
    !> One derivative over the cam angle: a frame, its scale, the curves.
    subroutine add_panel(curves, words, place, body)
-      !> The curves
       type(curve_t), intent(in) :: curves(:)
       !> What is drawn
       character(len=*), intent(in) :: words

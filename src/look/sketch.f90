@@ -70,9 +70,7 @@ contains
 
    !> Places of cam, roller and pad.
    subroutine find_places(case, model, cam, roller, pad)
-      !> The case
       type(case_t), intent(in) :: case
-      !> Its model
       type(model_t), intent(in) :: model
       !> Cam centre [m]
       real(wp), intent(out) :: cam(2)
@@ -95,7 +93,6 @@ contains
 
    !> Contour of the cam with its base circle at the roller: the path of the roller's centre seen from the cam, less the roller.
    subroutine find_contour(model, cam, contour)
-      !> The model
       type(model_t), intent(in) :: model
       !> Cam centre [m]
       real(wp), intent(in) :: cam(2)
@@ -126,7 +123,6 @@ contains
 
    !> Cam and its base circle.
    subroutine draw_cam(case, contour, cam, body)
-      !> The case
       type(case_t), intent(in) :: case
       !> Contour and centre of the cam [m]
       real(wp), intent(in) :: contour(:, :), cam(2)
@@ -148,7 +144,6 @@ contains
 
    !> Finger, roller, pad and valve; at full lift dashed.
    subroutine draw_finger(case, roller, pad, body)
-      !> The case
       type(case_t), intent(in) :: case
       !> Centres of roller and pad, on the base circle and at full lift [m]
       real(wp), intent(in) :: roller(2, 2), pad(2, 2)
@@ -179,9 +174,7 @@ contains
 
    !> Arcs of the angles about the pivot, with their names and sizes.
    subroutine draw_angles(case, model, cam, body)
-      !> The case
       type(case_t), intent(in) :: case
-      !> Its model
       type(model_t), intent(in) :: model
       !> Cam centre [m]
       real(wp), intent(in) :: cam(2)
@@ -210,7 +203,6 @@ contains
       real(wp), intent(in) :: radius
       !> Ends, against the clock from the right [rad]
       real(wp), intent(in) :: first, last
-      !> The words
       character(len=*), intent(in) :: words
       !> Drawing so far
       character(len=:), allocatable, intent(inout) :: body
@@ -222,7 +214,6 @@ contains
 
    !> Frame, title and legend around a drawing.
    subroutine put_in_frame(case, body, low, high, drawing)
-      !> The case
       type(case_t), intent(in) :: case
       !> The drawing without its frame
       character(len=*), intent(in) :: body
@@ -291,7 +282,6 @@ contains
    subroutine add_circle(centre, radius, style, body)
       !> Centre and radius [m]
       real(wp), intent(in) :: centre(2), radius
-      !> Its style
       character(len=*), intent(in) :: style
       !> Drawing so far
       character(len=:), allocatable, intent(inout) :: body
@@ -304,7 +294,6 @@ contains
    subroutine add_line(from, to, style, body)
       !> Its ends [m]
       real(wp), intent(in) :: from(2), to(2)
-      !> Its style
       character(len=*), intent(in) :: style
       !> Drawing so far
       character(len=:), allocatable, intent(inout) :: body

@@ -177,7 +177,6 @@ contains
 
    !> Loads of film and asperities on a pin at the eccentricity that they hold it at.
    pure subroutine hold_pin(part, load, shear, t, balance)
-      !> The pin
       type(pin_part_t), intent(in) :: part
       !> Load [N], viscosity times spin [Pa]
       real(wp), intent(in) :: load, shear

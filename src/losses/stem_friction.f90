@@ -254,7 +254,6 @@ contains
       !> The parts, allocated where the case has them
       type(tip_part_t), allocatable, intent(in) :: tip
       type(seal_part_t), allocatable, intent(in) :: seal
-      !> Motion
       type(stem_motion_t), intent(in) :: motion
       !> Direction of the tip's sliding [-]
       type(dual_t), intent(out) :: direction

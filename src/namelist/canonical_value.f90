@@ -56,7 +56,6 @@ contains
    pure subroutine read_repeats(digits, repeats, star)
       !> What stands before the star
       character(len=*), intent(in) :: digits
-      !> The repeats
       integer, intent(inout) :: repeats
       !> Place of the star; 0 where it is none of repeats
       integer, intent(inout) :: star
@@ -72,9 +71,7 @@ contains
 
    !> Spell one word.
    pure subroutine spell_word(word, spelling)
-      !> The word
       character(len=*), intent(in) :: word
-      !> The one spelling
       character(len=:), allocatable, intent(out) :: spelling
 
       real(wp) :: number ! [unit of the key]

@@ -69,7 +69,6 @@ contains
    !> Begin a group; the keys that follow belong to it. Groups and keys are taken in the order in which they were declared, so that
    !> each is nearly always the one behind the last.
    subroutine group(keys, name, kind, meaning)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the group
       character(len=*), intent(in) :: name
@@ -96,7 +95,6 @@ contains
 
    !> Are the keys of the present group wanted: declared, or taken where their effect is in the deck?
    pure function are_wanted(keys) result(verdict)
-      !> The keys
       class(keys_t), intent(in) :: keys
       !> Are they?
       logical :: verdict
@@ -106,7 +104,6 @@ contains
 
    !> Value of a key of the present group.
    pure subroutine find(keys, name, position)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the key
       character(len=*), intent(in) :: name
@@ -126,7 +123,6 @@ contains
 
    !> A number.
    subroutine number(keys, name, range, meaning, variable, example, is_optional, usual)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the key
       character(len=*), intent(in) :: name
@@ -157,7 +153,6 @@ contains
 
    !> A whole number.
    subroutine whole_number(keys, name, range, meaning, variable, example)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the key
       character(len=*), intent(in) :: name
@@ -184,7 +179,6 @@ contains
 
    !> A choice of yes and no.
    subroutine yes_or_no(keys, name, meaning, variable)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the key
       character(len=*), intent(in) :: name
@@ -205,7 +199,6 @@ contains
 
    !> A choice by name.
    subroutine choice(keys, name, choices, meaning, variable)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the key
       character(len=*), intent(in) :: name
@@ -231,7 +224,6 @@ contains
 
    !> A text.
    subroutine text(keys, name, meaning, variable, example, is_optional)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the key
       character(len=*), intent(in) :: name
@@ -257,7 +249,6 @@ contains
 
    !> A list of numbers.
    subroutine numbers(keys, name, range, meaning, variable, example, is_optional, usual)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the key
       character(len=*), intent(in) :: name
@@ -286,7 +277,6 @@ contains
 
    !> A list of whole numbers.
    subroutine whole_numbers(keys, name, range, meaning, variable, example, is_optional)
-      !> The keys
       class(keys_t), intent(inout) :: keys
       !> Name of the key
       character(len=*), intent(in) :: name

@@ -51,7 +51,6 @@ contains
 
    !> Bounds of a unit.
    pure function bounds_of(unit) result(bounds)
-      !> The unit
       type(unit_t), intent(in) :: unit
       !> Its bounds
       type(bounds_t) :: bounds
@@ -67,7 +66,6 @@ contains
 
    !> Smallest magnitude of a number that is not 0.
    pure function smallest_size(unit) result(smallest)
-      !> Its unit
       type(unit_t), intent(in) :: unit
       !> The size [the unit]
       real(wp) :: smallest

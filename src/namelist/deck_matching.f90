@@ -106,11 +106,9 @@ contains
 
    !> Do not ask for a group that is there under a misspelt name.
    pure subroutine excuse_group(schema, name, settings)
-      !> The schema
       type(schema_t), intent(in) :: schema
       !> Name of the group; blank for none
       character(len=*), intent(in) :: name
-      !> The settings
       type(settings_t), intent(inout) :: settings
 
       integer :: group
@@ -121,13 +119,11 @@ contains
 
    !> Take one key.
    subroutine match_key(schema, assignment, group, settings, mistakes)
-      !> The schema
       type(schema_t), intent(in) :: schema
       !> Key and value as they stand in the deck
       type(assignment_t), intent(in) :: assignment
       !> Position of the group
       integer, intent(in) :: group
-      !> The settings
       type(settings_t), intent(inout) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
@@ -168,7 +164,6 @@ contains
 
    !> Position of a key, whatever the case of its letters: that of units counts in the schema, but not in a deck.
    pure function find_key_without_case(schema, group, name) result(position)
-      !> The schema
       type(schema_t), intent(in) :: schema
       !> Position of the group
       integer, intent(in) :: group
@@ -192,7 +187,6 @@ contains
    pure subroutine advise(name, known, introduction, words)
       !> The name that is unknown
       character(len=*), intent(in) :: name
-      !> The known ones
       character(len=*), intent(in) :: known(:)
       !> Words before the list of all
       character(len=*), intent(in) :: introduction
@@ -210,7 +204,6 @@ contains
 
    !> What to say about a key that a group does not have.
    pure subroutine explain_key(schema, group, name, words)
-      !> The schema
       type(schema_t), intent(in) :: schema
       !> Position of the group
       integer, intent(in) :: group
@@ -239,7 +232,6 @@ contains
    !> The key of a group that an unknown one was meant to be, with its unit where that is another: a value must not be taken
    !> over as it is. Where keys of the unknown one's unit begin with the same word, these.
    pure subroutine advise_key(schema, group, name, words)
-      !> The schema
       type(schema_t), intent(in) :: schema
       !> Position of the group
       integer, intent(in) :: group
@@ -420,7 +412,6 @@ contains
 
    !> Where a key has no value, take that of another key.
    subroutine copy_value(settings, group, from, to)
-      !> The settings
       type(settings_t), intent(inout) :: settings
       !> Names of the group, of the key that has a value and of the one that needs it
       character(len=*), intent(in) :: group, from, to
@@ -437,7 +428,6 @@ contains
 
    !> Where a list of the cams is not given, take the same number for every cam.
    subroutine fill_list(settings, key, digit)
-      !> The settings
       type(settings_t), intent(inout) :: settings
       !> Name of the list
       character(len=*), intent(in) :: key

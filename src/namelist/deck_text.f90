@@ -114,7 +114,6 @@ contains
 
    !> Go through one line.
    subroutine read_line(line, reader, deck, mistakes)
-      !> The line
       character(len=*), intent(in) :: line
       !> State of the reading
       type(reader_t), intent(inout) :: reader
@@ -154,7 +153,6 @@ contains
 
    !> Text where no group is open.
    subroutine complain_outside(line, position, reader, mistakes)
-      !> The line
       character(len=*), intent(in) :: line
       !> Where the text begins
       integer, intent(in) :: position
@@ -181,7 +179,6 @@ contains
 
    !> Begin a group.
    subroutine open_group(line, position, last, reader, deck, mistakes)
-      !> The line
       character(len=*), intent(in) :: line
       !> Place of the `&`
       integer, intent(in) :: position
@@ -253,7 +250,6 @@ contains
 
    !> Quoted text, on one line.
    subroutine read_quoted(line, position, last, reader, deck, mistakes)
-      !> The line
       character(len=*), intent(in) :: line
       !> Place of the opening quote
       integer, intent(in) :: position
@@ -279,7 +275,6 @@ contains
 
    !> A word: a new key where `=` follows, else part of a value.
    subroutine read_word(line, position, last, reader, deck, mistakes)
-      !> The line
       character(len=*), intent(in) :: line
       !> Where the word begins
       integer, intent(in) :: position
@@ -324,7 +319,6 @@ contains
 
    !> A character that begins neither key nor quoted text.
    subroutine read_other(line, position, last, reader, deck, mistakes)
-      !> The line
       character(len=*), intent(in) :: line
       !> Place of the character
       integer, intent(in) :: position
@@ -441,7 +435,6 @@ contains
 
    !> Last column of a word that begins at a column; the column before it where there is none.
    pure function word_end(line, first) result(last)
-      !> The line
       character(len=*), intent(in) :: line
       !> Where the word begins
       integer, intent(in) :: first
@@ -454,7 +447,6 @@ contains
 
    !> First column from a place on that is not blank; the one after the last where there is none.
    pure function next_column(line, first) result(column)
-      !> The line
       character(len=*), intent(in) :: line
       !> Where to begin
       integer, intent(in) :: first
@@ -467,9 +459,7 @@ contains
 
    !> Character at a column; a blank after the end.
    pure function character_at(line, column) result(found)
-      !> The line
       character(len=*), intent(in) :: line
-      !> The column
       integer, intent(in) :: column
       !> What stands there
       character(len=1) :: found

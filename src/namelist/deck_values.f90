@@ -108,9 +108,7 @@ contains
 
    !> One number or a list of numbers.
    subroutine read_numbers(key, value, reason)
-      !> The key
       type(key_t), intent(in) :: key
-      !> Its value
       type(value_t), intent(inout) :: value
       !> What is wrong
       character(len=:), allocatable, intent(out) :: reason
@@ -160,9 +158,7 @@ contains
 
    !> One integer or a list of integers.
    subroutine read_integers(key, value, reason)
-      !> The key
       type(key_t), intent(in) :: key
-      !> Its value
       type(value_t), intent(inout) :: value
       !> What is wrong
       character(len=:), allocatable, intent(out) :: reason
@@ -195,9 +191,7 @@ contains
 
    !> Yes or no.
    subroutine read_logical(key, value, reason)
-      !> The key
       type(key_t), intent(in) :: key
-      !> Its value
       type(value_t), intent(inout) :: value
       !> What is wrong
       character(len=:), allocatable, intent(out) :: reason
@@ -217,9 +211,7 @@ contains
 
    !> A name or a text.
    subroutine read_text(key, value, reason)
-      !> The key
       type(key_t), intent(in) :: key
-      !> Its value
       type(value_t), intent(inout) :: value
       !> What is wrong
       character(len=:), allocatable, intent(out) :: reason
@@ -255,9 +247,7 @@ contains
 
    !> Is a name one of those that a key takes?
    subroutine check_choice(key, name, reason)
-      !> The key
       type(key_t), intent(in) :: key
-      !> The name
       character(len=*), intent(in) :: name
       !> What is wrong
       character(len=:), allocatable, intent(out) :: reason
@@ -273,7 +263,6 @@ contains
 
    !> Room for a list of numbers.
    subroutine count_places(key, text, is_whole, places, reason)
-      !> The key
       type(key_t), intent(in) :: key
       !> Text of the value
       character(len=*), intent(in) :: text
@@ -293,7 +282,6 @@ contains
 
    !> As many values as the key takes, and no empty place between them?
    subroutine check_count(key, n, is_dense, text, reason)
-      !> The key
       type(key_t), intent(in) :: key
       !> Number of values
       integer, intent(in) :: n
@@ -313,7 +301,6 @@ contains
 
    !> Position of what a key takes in `number_words`.
    pure function number_kind(key) result(position)
-      !> The key
       type(key_t), intent(in) :: key
       !> The position
       integer :: position
@@ -323,7 +310,6 @@ contains
 
    !> What a key takes, in words.
    pure function number_or_list(key) result(words)
-      !> The key
       type(key_t), intent(in) :: key
       !> The words
       character(len=len_trim(number_words(number_kind(key)))) :: words
@@ -335,7 +321,6 @@ contains
    elemental function is_within(number, range) result(verdict)
       !> The number [unit of the key]
       real(wp), intent(in) :: number
-      !> The range
       type(range_t), intent(in) :: range
       !> Is it?
       logical :: verdict
@@ -411,7 +396,6 @@ contains
 
    !> Number of commas in a text.
    pure function commas(text) result(number)
-      !> The text
       character(len=*), intent(in) :: text
       !> Their number
       integer :: number

@@ -122,7 +122,6 @@ contains
 
    !> Length of the name or text of a key; 0 where there is none.
    pure function word_length(settings, group, key) result(length)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Names of group and key
       character(len=*), intent(in) :: group, key
@@ -150,7 +149,6 @@ contains
 
    !> Give a number the value of a key.
    subroutine take_number(settings, group, key, variable)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Names of group and key
       character(len=*), intent(in) :: group, key
@@ -164,7 +162,6 @@ contains
 
    !> Give an integer the value of a key.
    subroutine take_integer(settings, group, key, variable)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Names of group and key
       character(len=*), intent(in) :: group, key
@@ -178,7 +175,6 @@ contains
 
    !> Give a logical the value of a key.
    subroutine take_logical(settings, group, key, variable)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Names of group and key
       character(len=*), intent(in) :: group, key
@@ -192,7 +188,6 @@ contains
 
    !> Give a name the value of a key.
    subroutine take_word(settings, group, key, variable)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Names of group and key
       character(len=*), intent(in) :: group, key
@@ -206,7 +201,6 @@ contains
 
    !> Give a list of numbers the value of a key.
    subroutine take_numbers(settings, group, key, variable)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Names of group and key
       character(len=*), intent(in) :: group, key
@@ -220,7 +214,6 @@ contains
 
    !> Give a list of integers the value of a key.
    subroutine take_integers(settings, group, key, variable)
-      !> The settings
       type(settings_t), intent(in) :: settings
       !> Names of group and key
       character(len=*), intent(in) :: group, key

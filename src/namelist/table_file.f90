@@ -118,7 +118,6 @@ contains
 
    !> Letters of a line before its comment.
    pure function content_length(line) result(length)
-      !> The line
       character(len=*), intent(in) :: line
       !> Their number
       integer :: length
@@ -129,7 +128,6 @@ contains
 
    !> Does a line hold more than a comment?
    pure function has_words(line) result(verdict)
-      !> The line
       character(len=*), intent(in) :: line
       !> Does it?
       logical :: verdict
@@ -249,9 +247,7 @@ contains
    subroutine read_row(path, line, number, places, named, row, has_row, mistakes)
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> The line
       character(len=*), intent(in) :: line
-      !> Its number
       integer, intent(in) :: number
       !> Places of the two columns, of that with the key, and number of all; 0 where they have no names
       integer, intent(in) :: places(4)

@@ -89,7 +89,6 @@ contains
 
    !> Ask for a value where it is usual and nothing is asked yet.
    pure subroutine ask_value(key, value, other, words)
-      !> The key
       type(key_t), intent(in) :: key
       !> The value [unit of the key]
       real(wp), intent(in) :: value

@@ -55,7 +55,6 @@ contains
 
    !> Number of commas in a text.
    pure function number_of_commas(text) result(commas)
-      !> The text
       character(len=*), intent(in) :: text
       !> Their number
       integer :: commas
@@ -92,7 +91,6 @@ contains
 
    !> Is a word a number of its kind?
    pure function is_value(word, is_whole) result(verdict)
-      !> The word
       character(len=*), intent(in) :: word
       !> Is a whole number wanted?
       logical, intent(in) :: is_whole

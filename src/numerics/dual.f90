@@ -103,7 +103,6 @@ contains
 
    !> A dual number with the other sign.
    elemental function negate(number) result(negative)
-      !> A number
       type(dual_t), intent(in) :: number
       !> The same with the other sign
       type(dual_t) :: negative
@@ -147,7 +146,6 @@ contains
 
    !> Size; its slope at zero is that on the positive side.
    elemental function absolute(number) result(size)
-      !> A number
       type(dual_t), intent(in) :: number
       !> Its size
       type(dual_t) :: size
@@ -168,7 +166,6 @@ contains
 
    !> Hyperbolic tangent.
    elemental function hyperbolic_tangent(number) result(tangent)
-      !> A number
       type(dual_t), intent(in) :: number
       !> Its hyperbolic tangent
       type(dual_t) :: tangent

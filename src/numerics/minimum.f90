@@ -121,7 +121,6 @@ contains
 
    !> Put a point in the place of an end of the bracket, which is beside it then.
    pure subroutine replace_end(search, side, point, value)
-      !> The search
       type(minimum_t), intent(inout) :: search
       !> The end, 1 or 3
       integer, intent(in) :: side
@@ -141,7 +140,6 @@ contains
    !> the lines of its legs cross. Nothing is wanted any more where parabola or lines have told the last value and gain next to
    !> nothing.
    pure subroutine choose_trial(search)
-      !> The search
       type(minimum_t), intent(inout) :: search
 
       ! Parts of the bracket [x], rises of the value over them [f], slopes [f/x]
@@ -196,7 +194,6 @@ contains
    !> Next trial beside a jump: a cut of the part on this side of it. A curve bent to one side is nowhere below the line through the
    !> end of that part and the point beside it, continued to the jump.
    pure subroutine choose_beside_jump(search)
-      !> The search
       type(minimum_t), intent(inout) :: search
 
       ! From the middle point to the end [x], rise of the value over it [f]
@@ -216,7 +213,6 @@ contains
 
    !> Value of the parabola through the bracket.
    pure function parabola_at(search, parts, slopes, point) result(value)
-      !> The search
       type(minimum_t), intent(in) :: search
       !> Parts of the bracket [x], slopes of the value over them, both positive [f/x], point [x]
       real(wp), intent(in) :: parts(2), slopes(2), point
@@ -231,7 +227,6 @@ contains
    !> Does the parabola through the bracket tell the points beside it? Without one beside the larger part it has to tell the last
    !> value, and to gain, all the less.
    pure subroutine confirm_parabola(search, parts, slopes, gain, is_smooth)
-      !> The search
       type(minimum_t), intent(in) :: search
       !> Parts of the bracket [x], slopes of the value over them [f/x], what the parabola gains [f]
       real(wp), intent(in) :: parts(2), slopes(2), gain
@@ -251,7 +246,6 @@ contains
 
    !> Slope of the line through an end of the bracket and the point beside it.
    pure function leg_slope(search, side) result(slope)
-      !> The search
       type(minimum_t), intent(in) :: search
       !> 1 or 2
       integer, intent(in) :: side
@@ -263,7 +257,6 @@ contains
 
    !> Where the lines of both legs cross, if that is in the bracket and not above its middle point.
    pure subroutine cross_legs(search, has_crossing, crossing, lowest)
-      !> The search
       type(minimum_t), intent(in) :: search
       !> Do they?
       logical, intent(out) :: has_crossing

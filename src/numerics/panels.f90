@@ -209,7 +209,6 @@ contains
 
    !> Divide a panel; the second part becomes the last panel.
    subroutine split_panel(panels, sampled, panel, place, error)
-      !> The panels
       type(panels_t), intent(inout) :: panels
       !> What is integrated
       class(sampled_t), intent(inout) :: sampled
@@ -252,7 +251,6 @@ contains
 
    !> Integrals and error estimates of a panel.
    pure subroutine set_panel(panels, panel, left, right, values)
-      !> The panels
       type(panels_t), intent(inout) :: panels
       !> Which of them
       integer, intent(in) :: panel
@@ -297,7 +295,6 @@ contains
 
    !> Twice the room.
    pure subroutine grow(panels)
-      !> The panels
       type(panels_t), intent(inout) :: panels
 
       ! Larger copies

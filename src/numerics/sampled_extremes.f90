@@ -298,9 +298,7 @@ contains
    pure subroutine list_rows(samples, extreme, search, among)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> The extreme one
       integer, intent(in) :: extreme
-      !> The search
       type(search_t), intent(inout) :: search
       !> As of `start_search`
       logical, intent(in), optional :: among(:)
@@ -342,7 +340,6 @@ contains
    pure function is_smooth(samples, row, among)
       !> The rows; their neighbours are known
       type(samples_t), intent(in) :: samples
-      !> The row
       integer, intent(in) :: row
       !> As of `start_search`
       logical, intent(in), optional :: among(:)
@@ -358,9 +355,7 @@ contains
    pure function lowest_hidden(samples, search, row) result(bound)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> The search
       type(search_t), intent(in) :: search
-      !> The row
       integer, intent(in) :: row
       !> The value; large where the series does not turn [unit of the series]
       real(wp) :: bound
@@ -388,9 +383,7 @@ contains
    pure subroutine look_near(samples, search, row, x, values, jump, outer)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> The search
       type(search_t), intent(in) :: search
-      !> The row
       integer, intent(in) :: row
       !> Angles of neighbour, row, and neighbour [rad], values there [unit of the series]
       real(wp), intent(out) :: x(3), values(3)
@@ -436,7 +429,6 @@ contains
    pure subroutine enter_row(samples, search)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> The search
       type(search_t), intent(inout) :: search
 
       ! As of `look_near`: [rad], [unit of the series], both
@@ -461,7 +453,6 @@ contains
 
    !> May there be a value near the present row that is lower than the extreme so far by more than what is not worth a value?
    pure function may_gain(search)
-      !> The search
       type(search_t), intent(in) :: search
       logical :: may_gain
 
@@ -470,7 +461,6 @@ contains
 
    !> Take what was found near a row.
    pure subroutine leave_row(search)
-      !> The search
       type(search_t), intent(inout) :: search
 
       search%bound = min(search%bound, search%now%value(2) - search%now%left)

@@ -138,7 +138,6 @@ contains
       integer, intent(in) :: points
       !> Number of the axis
       integer, intent(in) :: axis
-      !> Seed
       integer, intent(in) :: seed
       !> Place, from 0 to `points - 1`
       integer(int64) :: place

@@ -162,7 +162,6 @@ contains
 
    !> Coefficients of the spline through all values.
    pure subroutine interpolate(fit, info)
-      !> The fit
       type(fit_t), intent(inout) :: fit
       !> 0, or that of LAPACK
       integer, intent(out) :: info
@@ -199,7 +198,6 @@ contains
    !> Among all splines at that distance it is the one with the smallest integral of the squared third derivative. Its
    !> weight against the distances is the root of a rising function, searched in its logarithm.
    subroutine smooth(fit, smoothing, error)
-      !> The fit
       type(fit_t), intent(inout) :: fit
       !> Root mean square distance to the table [y]
       real(wp), intent(in) :: smoothing
@@ -245,7 +243,6 @@ contains
 
    !> Least squares with a penalty on the third derivative: what does not depend on the weight.
    pure subroutine set_normal(fit, normal)
-      !> The fit
       type(fit_t), intent(in) :: fit
       !> Its equations
       type(normal_t), intent(out) :: normal
@@ -280,7 +277,6 @@ contains
 
    !> Coefficients for one weight.
    pure subroutine smooth_with_weight(fit, normal, weight, smoothing, excess, info)
-      !> The fit
       type(fit_t), intent(inout) :: fit
       !> Its equations
       type(normal_t), intent(in) :: normal
@@ -307,7 +303,6 @@ contains
 
    !> Add `weight (sum of v c - target)^2` to the normal equations.
    pure subroutine add_square(fit, piece, v, target, weight, band, rhs)
-      !> The fit
       type(fit_t), intent(in) :: fit
       !> Piece whose six functions are meant
       integer, intent(in) :: piece
@@ -346,7 +341,6 @@ contains
 
    !> Root mean square distance of a fit from its table.
    pure function distance_to_table(fit, functions) result(distance)
-      !> The fit
       type(fit_t), intent(in) :: fit
       !> Functions at the point of each equation [-]
       real(wp), intent(in) :: functions(:, :)

@@ -166,7 +166,6 @@ contains
 
    !> Twice the room.
    pure subroutine grow(trajectory)
-      !> The trajectory
       type(trajectory_t), intent(inout) :: trajectory
 
       ! Larger copies [time], [state], [state/time], [state]

@@ -106,9 +106,7 @@ contains
 
    !> Rate where a segment begins, with its derivatives where the method needs them.
    subroutine rate_here(problem, method, step, counters, status)
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The method
       class(method_t), intent(inout) :: method
       !> The first step; out: with the rate at its start
       type(step_t), intent(inout) :: step
@@ -129,9 +127,7 @@ contains
 
    !> Integrate from one stop to the next, the horizon of the method.
    subroutine integrate_segment(problem, method, options, walk, trajectory, counters, error)
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The method
       class(method_t), intent(inout) :: method
       !> Tolerance or step
       type(options_t), intent(in) :: options
@@ -183,7 +179,6 @@ contains
 
    !> May bridges take the place of a method's steps?
    pure function may_bridge(method, options) result(verdict)
-      !> The method
       class(method_t), intent(in) :: method
       !> Tolerance or step
       type(options_t), intent(in) :: options
@@ -195,9 +190,7 @@ contains
 
    !> Go on by a bridge where the method gets nowhere, if there is one.
    subroutine cross(problem, method, options, walk, trajectory, counters, was_crossed)
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The method
       class(method_t), intent(inout) :: method
       !> Tolerance or step
       type(options_t), intent(in) :: options
@@ -246,7 +239,6 @@ contains
 
    !> Are the steps fixed, by choice or for want of an error estimate?
    pure function is_fixed(method, options)
-      !> The method
       class(method_t), intent(in) :: method
       !> Tolerance or step
       type(options_t), intent(in) :: options
@@ -260,9 +252,7 @@ contains
    !>
    !> A step that would leave a short remainder is cut to half of what is left.
    subroutine choose_step(problem, method, options, walk, counters)
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The method
       class(method_t), intent(in) :: method
       !> Tolerance or step
       type(options_t), intent(in) :: options
@@ -283,9 +273,7 @@ contains
 
    !> Try a step; a trial without a value, or with one that is no number, has an error far beyond its tolerance.
    subroutine try_checked_step(problem, method, options, step, counters, status)
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The method
       class(method_t), intent(inout) :: method
       !> Tolerance or step
       type(options_t), intent(in) :: options
@@ -325,7 +313,6 @@ contains
    !>
    !> A step that was cut short by the end of its segment says nothing about the next one unless it may grow.
    pure subroutine adapt_step(method, walk)
-      !> The method
       class(method_t), intent(in) :: method
       !> Where the integration stands, the step taken
       type(walk_t), intent(inout) :: walk

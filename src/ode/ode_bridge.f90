@@ -214,7 +214,6 @@ contains
    !> A state is held at a barrier on its own side. So the search begins on that side, and goes beyond the barrier only after the
    !> barrier itself has been tried.
    subroutine look_for_barrier(problem, time, state, step, barrier, is_below, first)
-      !> The problem
       class(problem_t), intent(in) :: problem
       !> Time at the end [time]
       real(wp), intent(in) :: time

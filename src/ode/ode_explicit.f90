@@ -68,7 +68,6 @@ contains
 
    !> Dormand and Prince (1980).
    subroutine set_dormand_prince(method)
-      !> The method
       type(explicit_method_t), intent(inout) :: method
 
       method%stages = 6
@@ -109,9 +108,7 @@ contains
    subroutine try_explicit_step(self, problem, step, counters, status)
       !> The method with its work space
       class(explicit_method_t), intent(inout) :: self
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The step
       type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters

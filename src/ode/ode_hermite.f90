@@ -76,7 +76,6 @@ contains
 
    !> Forget the points of earlier steps.
    pure subroutine forget_points(self)
-      !> The method
       class(hermite_method_t), intent(inout) :: self
 
       self%before = point_t()
@@ -108,9 +107,7 @@ contains
    subroutine try_hermite_step(self, problem, step, counters, status)
       !> The method and the derivatives at this point; out: those at the end, too
       class(hermite_method_t), intent(inout) :: self
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The step
       type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
@@ -188,7 +185,6 @@ contains
 
    !> Components that are integrals over the first: states at the end, error estimates, curves.
    pure subroutine carry_integrals(self, step, predicted, correction, first, s)
-      !> The method
       type(hermite_method_t), intent(inout) :: self
       !> The step, with the first component and all rates at its end; out: with all components and their errors
       type(step_t), intent(inout) :: step
@@ -247,7 +243,6 @@ contains
    !> Where the decay is fast against the step, the state follows the remainder at once, and an error in the middle is gone at
    !> the end.
    pure function loss_of(self, step, remainder, s, weights) result(loss)
-      !> The method
       type(hermite_method_t), intent(in) :: self
       !> Size of the step [time]
       real(wp), intent(in) :: step
@@ -279,7 +274,6 @@ contains
    !> Taken apart into a decaying layer and a polynomial of degree 5, which is exact but cancels for small exponents; for these
    !> by the polynomial of degree 5 through its slope at the start and its values at the quarters.
    pure subroutine bend_curve(self, step, remainder, s, new_state)
-      !> The method
       type(hermite_method_t), intent(inout) :: self
       !> Size of the step [time]
       real(wp), intent(in) :: step

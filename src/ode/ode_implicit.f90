@@ -98,7 +98,6 @@ contains
 
    !> Forget earlier steps.
    pure subroutine forget_steps(self)
-      !> The method
       class(radau_method_t), intent(inout) :: self
 
       self%last%step = 0.0_wp
@@ -109,9 +108,7 @@ contains
    subroutine try_radau_step(self, problem, step, counters, status)
       !> The method with its work space and the Jacobian at this point
       class(radau_method_t), intent(inout) :: self
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The step
       type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
@@ -140,7 +137,6 @@ contains
 
    !> Does a step end at a state?
    pure function follows(made, state)
-      !> The step
       type(made_step_t), intent(in) :: made
       !> The state [state]
       real(wp), intent(in) :: state(:)
@@ -230,9 +226,7 @@ contains
    subroutine iterate(self, problem, step, counters, status)
       !> The method with its work space
       type(radau_method_t), intent(inout) :: self
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The step
       type(step_t), intent(in) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
@@ -274,7 +268,6 @@ contains
    subroutine estimate_error(self, problem, step, counters, status)
       !> The method with its work space
       type(radau_method_t), intent(inout) :: self
-      !> The problem
       class(problem_t), intent(in) :: problem
       !> The step; out: with its error
       type(step_t), intent(inout) :: step

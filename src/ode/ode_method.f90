@@ -88,9 +88,7 @@ module camroller_ode_method
          import :: method_t, problem_t, step_t, counters_t
          !> The method with its work space
          class(method_t), intent(inout) :: self
-         !> The problem
          class(problem_t), intent(in) :: problem
-         !> The step
          type(step_t), intent(inout) :: step
          !> Work done so far
          type(counters_t), intent(inout) :: counters
@@ -104,7 +102,6 @@ contains
    !> Forget the steps made so far, so that the next one depends on nothing but its start. A method that remembers steps overrides
    !> this.
    pure subroutine forget_nothing(self)
-      !> The method
       class(method_t), intent(inout) :: self
 
       associate (without_memory => self)

@@ -262,7 +262,6 @@ contains
       class(problem_t), intent(in) :: self
       !> Rate and derivatives of which the factors are
       type(linear_t), intent(in) :: linear
-      !> The factors
       type(factors_t), intent(in) :: factors
       !> In: right-hand side [state/time]; out: solution [state]
       real(wp), intent(inout) :: right_side(:)

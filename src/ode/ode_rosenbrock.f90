@@ -73,7 +73,6 @@ contains
 
    !> Room for a table, filled with zeros.
    subroutine clear_table(method, stages)
-      !> The method
       type(rosenbrock_method_t), intent(inout) :: method
       !> Number of stages
       integer, intent(in) :: stages
@@ -90,7 +89,6 @@ contains
 
    !> Steinebach (2023).
    subroutine set_rodas5p(method)
-      !> The method
       type(rosenbrock_method_t), intent(inout) :: method
 
       call clear_table(method, most_stages)
@@ -135,9 +133,7 @@ contains
    subroutine try_rosenbrock_step(self, problem, step, counters, status)
       !> The method with its work space and the Jacobian at this point
       class(rosenbrock_method_t), intent(inout) :: self
-      !> The problem
       class(problem_t), intent(in) :: problem
-      !> The step
       type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters

@@ -152,7 +152,6 @@ contains
 
    !> Integrate to the end of a segment.
    subroutine walk_segment(problem, method, options, walk, trajectory, counters, error)
-      !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The method; its horizon is the end of the segment
       class(method_t), intent(inout) :: method
@@ -227,7 +226,6 @@ contains
 
    !> Propose a step in the place of one with an error too large, or with a kink in it: to that kink where it may be the cause.
    subroutine reject_step(method, was_rejected, walk, counters)
-      !> The method
       class(method_t), intent(in) :: method
       !> Out: was the error too large?
       logical, intent(out) :: was_rejected
@@ -254,9 +252,7 @@ contains
 
    !> Step that the proposal, the largest step, stability and the end of the segment allow.
    subroutine choose_step(problem, method, options, walk, counters)
-      !> The problem
       class(switching_problem_t), intent(in) :: problem
-      !> The method
       class(method_t), intent(in) :: method
       !> Tolerance and steps
       type(options_t), intent(in) :: options
@@ -284,7 +280,6 @@ contains
 
    !> Cut a step short where a kink is foreseen, by Taylor's polynomial of third order with the Jacobian at the start of the step.
    subroutine foresee_kink(problem, method, walk)
-      !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The method, with the derivatives at the start
       class(method_t), intent(in) :: method
@@ -321,9 +316,7 @@ contains
 
    !> Follow Taylor's polynomial past a kink.
    subroutine hop(problem, method, walk, trajectory, counters)
-      !> The problem
       class(switching_problem_t), intent(in) :: problem
-      !> The method
       class(method_t), intent(inout) :: method
       !> Where the integration stands, with the polynomial as curve of the whole step; out: past the kink, or with a proposal to go
       !> there by a step
@@ -356,9 +349,7 @@ contains
 
    !> Try a step, and look for the first kink in it.
    subroutine try_step(problem, method, walk, counters)
-      !> The problem
       class(switching_problem_t), intent(in) :: problem
-      !> The method
       class(method_t), intent(inout) :: method
       !> Where the integration stands; out: with the end of the step, its error and its first kink
       type(walk_t), intent(inout) :: walk
@@ -421,7 +412,6 @@ contains
 
    !> Find the place of the first kink of a switch or marker in a step, on the step's curve, and a little past it.
    subroutine find_first_kink(problem, walk)
-      !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The step, with the switches at both ends; out: with the place
       type(walk_t), intent(inout) :: walk

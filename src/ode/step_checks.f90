@@ -113,7 +113,6 @@ contains
       type(linear_t), intent(in) :: here, there
       !> Size of the derivative of the rate that saturates over its own component [1/time]
       real(wp), intent(in) :: slope
-      !> The step
       type(step_t), intent(inout) :: step
 
       ! Largest rate, and that with the rates at both ends [state/time]
@@ -134,11 +133,9 @@ contains
    !> barrier itself, some roundings before it since the rate may have no limit there, is asked: if it moves the state back to where
    !> it came from, faster than the barrier moves, the step is wrong.
    subroutine check_barrier(problem, method, step, counters)
-      !> The problem
       class(problem_t), intent(in) :: problem
       !> The method after the step, with clearances of different signs at its ends; a step without a curve is a straight line
       class(method_t), intent(in) :: method
-      !> The step
       type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters

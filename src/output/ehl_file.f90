@@ -93,7 +93,6 @@ contains
       type(ehl_file_t), intent(in) :: file
       !> Those of the lobe shape; its group is open
       type(lobe_t), intent(inout) :: lobe
-      !> The writer
       type(output_t), intent(in) :: writer
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -139,7 +138,6 @@ contains
 
    !> Extents of a chunk: one case where few have a record, else none, which is one contiguous block.
    pure function chunk_of(writer, extents) result(chunk)
-      !> The writer
       type(output_t), intent(in) :: writer
       !> Extents of the dataset, cases last
       integer, intent(in) :: extents(:)
@@ -154,13 +152,11 @@ contains
    subroutine create_profile(lobe, writer, name, unit, meaning, extents, dataset, error)
       !> Datasets of the lobe shape: the dimensions
       type(lobe_t), intent(in) :: lobe
-      !> The writer
       type(output_t), intent(in) :: writer
       !> Name, unit, meaning
       character(len=*), intent(in) :: name, unit, meaning
       !> Nodes, angles, cases
       integer, intent(in) :: extents(3)
-      !> The dataset
       type(hdf5_object_t), intent(out) :: dataset
       !> File error
       type(error_t), allocatable, intent(out) :: error

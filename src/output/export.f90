@@ -81,7 +81,6 @@ contains
 
    !> Keep what is asked for, and what tells rows apart: the cam angle, or the case with the keys that vary.
    subroutine choose_columns(table, wanted, what, error)
-      !> The table
       type(table_t), intent(inout) :: table
       !> Names, parted by commas; blank for all
       character(len=*), intent(in) :: wanted
@@ -266,7 +265,6 @@ contains
    subroutine write_file(path, table, form, error)
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> The table
       type(table_t), intent(in) :: table
       !> One of `export_formats`
       character(len=*), intent(in) :: form
@@ -289,7 +287,6 @@ contains
 
    !> Write all rows, or in JSON all columns, many at a time.
    subroutine write_rows(table, form, error, file)
-      !> The table
       type(table_t), intent(in) :: table
       !> One of `export_formats`
       character(len=*), intent(in) :: form
@@ -330,7 +327,6 @@ contains
 
       !> Write a piece of text; what was gathered is gone.
       subroutine write_piece(text)
-         !> The text
          character(len=*), intent(in) :: text
 
          length = 0
@@ -345,13 +341,11 @@ contains
 
    !> One line of a table.
    pure subroutine row_text(table, row, form, line)
-      !> The table
       type(table_t), intent(in) :: table
       !> The row, from 1; 0 for the units, or names with units, -1 for the names
       integer, intent(in) :: row
       !> One of `export_formats`
       character(len=*), intent(in) :: form
-      !> The line
       character(len=:), allocatable, intent(out) :: line
 
       character(len=number_length) :: number
@@ -378,11 +372,9 @@ contains
    !> One column of a table in JSON; the first line opens the object, the last column closes it. JSON has no infinite numbers: they
    !> are texts that languages read as such, and what is no number is null.
    subroutine column_text(table, column, line)
-      !> The table
       type(table_t), intent(in) :: table
       !> The column, from 1; 0 for the beginning
       integer, intent(in) :: column
-      !> The line
       character(len=:), allocatable, intent(out) :: line
 
       character(len=number_length) :: number
@@ -434,7 +426,6 @@ contains
 
    !> A word as CSV wants it: in quotes where it holds a comma, a quote or a line end.
    pure function quoted(word) result(text)
-      !> The word
       character(len=*), intent(in) :: word
       !> The word as it stands in the table
       character(len=:), allocatable :: text

@@ -140,7 +140,6 @@ contains
 
    !> Which quantities come from a part of the model.
    pure function columns_of(quantities, source) result(columns)
-      !> The quantities
       type(quantity_t), intent(in) :: quantities(:)
       !> The part
       character(len=*), intent(in) :: source

@@ -46,9 +46,7 @@ contains
 
    !> Has a result the quantities of a layout?
    pure function fits_layout(layout, result) result(verdict)
-      !> The layout
       type(layout_t), intent(in) :: layout
-      !> The result
       type(result_t), intent(in) :: result
       !> Has it?
       logical :: verdict
@@ -130,9 +128,7 @@ contains
 
    !> Pack quantities.
    subroutine put_quantities(record, quantities)
-      !> The record
       type(record_t), intent(inout) :: record
-      !> The quantities
       type(quantity_t), intent(in) :: quantities(:)
 
       integer :: i
@@ -166,9 +162,7 @@ contains
 
    !> Unpack quantities.
    subroutine take_quantities(record, quantities)
-      !> The record
       type(record_t), intent(inout) :: record
-      !> The quantities
       type(quantity_t), allocatable, intent(out) :: quantities(:)
 
       character(len=:), allocatable :: scope

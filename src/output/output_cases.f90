@@ -83,7 +83,6 @@ contains
 
    !> Begin a row.
    subroutine start_row(writer, position, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> Position of the case, from 1
       integer, intent(in) :: position
@@ -100,7 +99,6 @@ contains
 
    !> End a row; a full block is written.
    subroutine end_row(writer, position, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> Position of the case, from 1
       integer, intent(in) :: position
@@ -274,7 +272,6 @@ contains
 
    !> Create the axis of cam angles.
    subroutine create_angle(writer, angle, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> Cam angles [deg]
       real(wp), intent(in) :: angle(:)
@@ -294,7 +291,6 @@ contains
 
    !> Create the datasets of series.
    subroutine create_series(writer, angles, first, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> Number of cam angles
       integer, intent(in) :: angles
@@ -325,7 +321,6 @@ contains
 
    !> Create the datasets of scalars.
    subroutine create_summary(writer, first, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> The first scalar that has none
       integer, intent(in) :: first
@@ -357,7 +352,6 @@ contains
 
    !> Are scalars compressed? Only where each chunk is written once.
    pure function are_scalars_compressed(writer) result(answer)
-      !> The writer
       type(output_t), intent(in) :: writer
       !> Are they?
       logical :: answer
@@ -368,11 +362,9 @@ contains
 
    !> Group for scalars of a source: what tells about the choice of effects has one of its own.
    subroutine choose_group(writer, source, group, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> Part of the model that a scalar comes from
       character(len=*), intent(in) :: source
-      !> The group
       type(hdf5_object_t), intent(out) :: group
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -396,7 +388,6 @@ contains
 
    !> Deflate level of the series.
    pure function compression_level(writer, angles) result(level)
-      !> The writer
       type(output_t), intent(in) :: writer
       !> Number of cam angles
       integer, intent(in) :: angles

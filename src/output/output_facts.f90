@@ -172,7 +172,6 @@ contains
 
    !> Store the values of a swept key that is a number.
    subroutine write_swept_numbers(writer, key, unit, numbers, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> The key, as `group.key`
       character(len=*), intent(in) :: key
@@ -229,7 +228,6 @@ contains
 
    !> Store the values of a swept key that is a name.
    subroutine write_swept_names(writer, key, unit, names, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> The key, as `group.key`
       character(len=*), intent(in) :: key
@@ -255,7 +253,6 @@ contains
 
    !> What all columns have in common.
    subroutine finish_column(writer, dataset, key, unit, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> The column
       type(hdf5_object_t), intent(inout) :: dataset
@@ -277,7 +274,6 @@ contains
    subroutine write_value(group, key, value, is_whole, dataset, error)
       !> Group of the values
       type(hdf5_object_t), intent(in) :: group
-      !> The key
       character(len=*), intent(in) :: key
       !> Its value as text
       character(len=*), intent(in) :: value

@@ -144,7 +144,6 @@ contains
 
    !> Create the unfinished file beside the finished one's place.
    subroutine create_temporary(writer, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -161,7 +160,6 @@ contains
 
    !> Write and remove a small file: the library does not survive a device that is full from the start.
    subroutine try_path(writer, error)
-      !> The writer
       type(output_t), intent(in) :: writer
       !> File error in the system's words
       type(error_t), allocatable, intent(out) :: error
@@ -181,7 +179,6 @@ contains
 
    !> Write what every result file has: format, groups, the axis of cases.
    subroutine write_frame(writer, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> File error
       type(error_t), allocatable, intent(out) :: error

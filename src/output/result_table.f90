@@ -87,11 +87,9 @@ contains
 
    !> Read a scalar, of several lobe shapes the worst.
    subroutine read_worst(file, column, table, position, worst, error)
-      !> The file
       type(hdf5_object_t), intent(in) :: file
       !> The scalar
       type(column_t), intent(in) :: column
-      !> The table
       type(table_t), intent(inout) :: table
       !> Its column
       integer, intent(in) :: position
@@ -131,7 +129,6 @@ contains
 
    !> Columns of the table: of those that are asked for first, the ones that the file has.
    function shown_columns(file) result(columns)
-      !> The file
       type(hdf5_object_t), intent(in) :: file
       !> The columns
       type(column_t), allocatable :: columns(:)

@@ -42,13 +42,11 @@ contains
 
    !> Write one table.
    subroutine write_table(writer, study, name, title, table, error)
-      !> The writer
       type(output_t), intent(inout) :: writer
       !> Group of the study
       type(hdf5_object_t), intent(in) :: study
       !> Name of the table, and what it holds
       character(len=*), intent(in) :: name, title
-      !> The table
       type(study_table_t), intent(in) :: table
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -76,7 +74,6 @@ contains
       type(hdf5_object_t), intent(in) :: group
       !> Its rows
       type(hdf5_object_t), intent(in) :: axis
-      !> The table
       type(study_table_t), intent(in) :: table
       !> File error
       type(error_t), allocatable, intent(out) :: error
@@ -103,7 +100,6 @@ contains
       type(hdf5_object_t), intent(in) :: group
       !> Its rows
       type(hdf5_object_t), intent(in) :: axis
-      !> The table
       type(study_table_t), intent(in) :: table
       !> File error
       type(error_t), allocatable, intent(out) :: error

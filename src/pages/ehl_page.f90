@@ -37,7 +37,6 @@ contains
 
    !> Film and friction beside the closed formulas.
    subroutine set_friction(self, record)
-      !> The line
       class(ehl_line_t), intent(inout) :: self
       !> Record of the cycle
       type(ehl_record_t), intent(in) :: record

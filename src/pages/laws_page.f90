@@ -105,7 +105,6 @@ contains
 
    !> Line of a law.
    subroutine add_law(case, law, found, text, error)
-      !> The case
       type(case_t), intent(in) :: case
       !> Position of the law in `film_law_names`
       integer, intent(in) :: law
@@ -203,7 +202,6 @@ contains
 
    !> Name of a scalar.
    pure function name_of(column, lobe) result(name)
-      !> Its column
       type(column_t), intent(in) :: column
       !> Lobe shape, from 1; what is of the camshaft counts as the first's
       integer, intent(in) :: lobe
@@ -215,7 +213,6 @@ contains
 
    !> Heading of a column without its unit.
    pure function heading_of(column) result(heading)
-      !> The column
       type(column_t), intent(in) :: column
       !> The heading
       character(len=len_trim(column%heading(:index(column%heading//"[", "[") - 1))) :: heading

@@ -73,11 +73,9 @@ contains
 
    !> A limit of the rigid train.
    subroutine rigid_text(search, limit, words)
-      !> The search
       type(limits_t), intent(in) :: search
       !> Which limit
       integer, intent(in) :: limit
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       if (limit == seating_limit .or. limit == closing_limit) then
@@ -94,11 +92,9 @@ contains
 
    !> A limit of the flexible train.
    subroutine flexible_text(search, limit, words)
-      !> The search
       type(limits_t), intent(in) :: search
       !> Which limit
       integer, intent(in) :: limit
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       if (limit == adjuster_limit .and. .not. search%has_adjuster) then
@@ -116,11 +112,9 @@ contains
    !> What else there is to say of a limit: where the train does not repeat itself in each cycle, where it is regained, and where
    !> the valve has no speed of seating.
    subroutine comment_text(search, limit, words)
-      !> The search
       type(limits_t), intent(in) :: search
       !> Which limit
       integer, intent(in) :: limit
-      !> The words
       character(len=:), allocatable, intent(out) :: words
 
       words = ""

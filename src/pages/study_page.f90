@@ -141,7 +141,6 @@ contains
    pure function known(values, rows) result(list)
       !> Column [any]
       real(wp), intent(in) :: values(:)
-      !> The rows
       logical, intent(in) :: rows(:)
       !> Numbers [any]
       real(wp), allocatable :: list(:)

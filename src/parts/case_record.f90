@@ -110,9 +110,7 @@ contains
 
    !> Add profiles.
    pure subroutine put_profiles(record, profiles)
-      !> The record
       type(record_t), intent(inout) :: record
-      !> The profiles
       type(ehl_record_t), intent(in) :: profiles
 
       integer :: i
@@ -230,11 +228,9 @@ contains
 
    !> Take profiles.
    pure subroutine take_profiles(record, nodes, angles, profiles)
-      !> The record
       type(record_t), intent(inout) :: record
       !> Nodes across the contact, cam angles
       integer, intent(in) :: nodes, angles
-      !> The profiles
       type(ehl_record_t), intent(inout) :: profiles
 
       integer :: i, has_rise

@@ -173,7 +173,6 @@ contains
 
    !> Take note of damage, once where several records of a file have the same.
    subroutine add_damage(index, words)
-      !> The index
       type(index_t), intent(inout) :: index
       !> What is damaged
       character(len=*), intent(in) :: words
@@ -192,9 +191,7 @@ contains
       type(raw_file_t), intent(in) :: file
       !> Where it starts [byte]
       integer(int64), intent(in) :: offset
-      !> The record
       type(record_t), intent(inout) :: record
-      !> Its kind
       integer, intent(out) :: kind
       !> Is there a whole record?
       logical, intent(out) :: is_whole
@@ -224,7 +221,6 @@ contains
       character(len=*), intent(in) :: path
       !> First record of the file
       type(record_t), intent(inout) :: record
-      !> Its kind
       integer, intent(in) :: kind
       !> The sweep
       type(study_facts_t), intent(in) :: facts
@@ -269,7 +265,6 @@ contains
 
    !> The line that begins at a place.
    pure function line_at(text, first) result(line)
-      !> The text
       character(len=*), intent(in) :: text
       !> Where the line begins
       integer, intent(in) :: first
@@ -287,9 +282,7 @@ contains
 
    !> Take a layout into an index.
    subroutine add_layout(index, record, layouts_before)
-      !> The index
       type(index_t), intent(inout) :: index
-      !> The record
       type(record_t), intent(inout) :: record
       !> Layouts of the files before
       integer, intent(in) :: layouts_before
@@ -304,11 +297,9 @@ contains
 
    !> Take a run of cases into an index.
    subroutine add_entry(index, path, record, offset, layouts_before, cases)
-      !> The index
       type(index_t), intent(inout) :: index
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> The record
       type(record_t), intent(inout) :: record
       !> Where its words start [byte]
       integer(int64), intent(in) :: offset
@@ -349,7 +340,6 @@ contains
 
    !> Is there a layout under a number?
    pure function has_layout(list, number) result(verdict)
-      !> The list
       type(layout_list_t), intent(in) :: list
       !> The number, from 1
       integer, intent(in) :: number

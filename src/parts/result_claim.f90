@@ -119,7 +119,6 @@ contains
 
    !> Is an unfinished file one of this program, and does no process write it?
    function is_ours(path) result(verdict)
-      !> Its path
       character(len=*), intent(in) :: path
       !> Is it?
       logical :: verdict

@@ -85,13 +85,11 @@ contains
 
    !> Means of a lobe shape whose train is flexible.
    subroutine integrate_flexible(case, series, model, cycle, statistics, error)
-      !> The case
       type(case_t), intent(in) :: case
       !> Its series: those of one follower and of the camshaft
       type(quantity_t), intent(in) :: series(:)
       !> Model of the lobe
       type(model_t), intent(in) :: model
-      !> Its cycle
       type(cycle_t), intent(in) :: cycle
       !> Its means
       type(statistics_t), intent(out) :: statistics
@@ -228,7 +226,6 @@ contains
 
    !> Remarks on the smallest and largest values of each lobe shape.
    subroutine judge_extremes(case, models, statistics, result)
-      !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
@@ -257,7 +254,6 @@ contains
 
    !> Remarks on a temperature of oil or surfaces far from all at which their laws are given, or beyond what they are estimated for.
    subroutine judge_temperature(case, shaft, statistics, remarks)
-      !> The case
       type(case_t), intent(in) :: case
       !> Its camshafts
       type(shaft_t), intent(in) :: shaft
@@ -336,7 +332,6 @@ contains
 
    !> Turn for a cam: one that is there and whose phase differs by whole output steps, or a new one.
    subroutine join_turn(turns, lobe, phase, step, number, behind)
-      !> The turns
       type(lobe_turn_t), allocatable, intent(inout) :: turns(:)
       !> Lobe shape of the cam
       integer, intent(in) :: lobe

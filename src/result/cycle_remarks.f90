@@ -97,11 +97,9 @@ contains
    subroutine check_contact(model, cycle, statistics, margins, remarks, error)
       !> Model of the lobe
       type(model_t), intent(in) :: model
-      !> Its cycle
       type(cycle_t), intent(in) :: cycle
       !> Means over the cycle
       type(statistics_t), intent(in) :: statistics
-      !> Its margins
       type(margins_t), intent(in) :: margins
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
@@ -204,7 +202,6 @@ contains
    subroutine check_pivot(model, margins, remarks)
       !> Model of the lobe
       type(model_t), intent(in) :: model
-      !> Its margins
       type(margins_t), intent(in) :: margins
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)

@@ -102,7 +102,6 @@ contains
 
    !> Means of nothing so far.
    subroutine start_means(means, series_count, first_torque)
-      !> The means
       type(flexible_means_t), intent(out) :: means
       !> Number of series of follower and camshaft, and the first of them that is a torque
       integer, intent(in) :: series_count, first_torque
@@ -116,7 +115,6 @@ contains
 
    !> Hold the row of a turn before the last one where it has an extreme: of these turns nothing is searched between points.
    pure subroutine hold_row(means, angle, values, is_touching, event_load)
-      !> The means
       type(flexible_means_t), intent(inout) :: means
       !> Cam angle [rad]
       real(wp), intent(in) :: angle
@@ -141,7 +139,6 @@ contains
 
    !> Add the rows held to those of the last turn, each once.
    pure subroutine add_held(means)
-      !> The means
       type(flexible_means_t), intent(inout) :: means
 
       integer :: i, k, followers
@@ -238,7 +235,6 @@ contains
 
    !> Take a turn into the means.
    subroutine add_turn(case, model, path, resolution, share, is_last, has_extremes, state, means, error)
-      !> The case
       type(case_t), intent(in) :: case
       !> The model of the lobe
       type(model_t), intent(in) :: model
@@ -252,7 +248,6 @@ contains
       logical, intent(in) :: is_last, has_extremes
       !> State at the last point
       type(state_t), intent(out) :: state
-      !> The means
       type(flexible_means_t), intent(inout) :: means
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
@@ -296,7 +291,6 @@ contains
 
    !> Add rows where the friction of joints has spikes that the points of a step miss.
    subroutine add_spikes(case, model, path, resolution, step, is_last, means)
-      !> The case
       type(case_t), intent(in) :: case
       !> The model of the lobe, with such joints
       type(model_t), intent(in) :: model
@@ -304,7 +298,6 @@ contains
       type(trajectory_t), intent(in) :: path
       !> What its integration did not tell apart
       type(resolution_t), intent(in) :: resolution
-      !> The step
       integer, intent(in) :: step
       !> Is the turn the last one?
       logical, intent(in) :: is_last

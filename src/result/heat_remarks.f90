@@ -174,7 +174,6 @@ contains
 
    !> Thermal conductivity of the oil: that of the case, or a usual one.
    pure function oil_conductivity(case) result(conductivity)
-      !> The case
       type(case_t), intent(in) :: case
       !> The conductivity [W/(m K)]
       real(wp) :: conductivity
@@ -298,7 +297,6 @@ contains
 
       !> Mean of a quantity of the lobe shape; zero where there is none.
       function mean_of(name) result(mean)
-         !> Its name
          character(len=*), intent(in) :: name
          !> The mean [unit of the quantity]
          real(wp) :: mean

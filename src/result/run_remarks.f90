@@ -76,7 +76,6 @@ contains
 
    !> Say that a boundary law would go below its smallest or above its largest coefficient; points of a table tell with the deck.
    subroutine judge_bounds(law, result, error)
-      !> The law
       type(boundary_law_t), intent(in) :: law
       !> The result; gets the remark
       type(result_t), intent(inout) :: result
@@ -217,7 +216,6 @@ contains
 
    !> Say that the roller slides all round so slowly that a law of boundary friction does not depend on the speed.
    subroutine judge_speed(law, result, error)
-      !> The law
       type(boundary_law_t), intent(in) :: law
       !> The result; gets the remark
       type(result_t), intent(inout) :: result
@@ -302,7 +300,6 @@ contains
 
    !> Remarks on an accuracy that was not reached, or an error where nothing of the result can be right.
    subroutine judge_accuracy(result, accuracy, estimates, error)
-      !> The result
       type(result_t), intent(inout) :: result
       !> Accuracy wanted [-]
       real(wp), intent(in) :: accuracy
@@ -342,7 +339,6 @@ contains
 
    !> Is a train of the case without a period?
    pure function lacks_period(result) result(verdict)
-      !> The result
       type(result_t), intent(in) :: result
       !> Is one?
       logical :: verdict
@@ -379,7 +375,6 @@ contains
    subroutine judge_tolerance(numerics, result, estimates)
       !> Numerics as given
       type(numerics_t), intent(in) :: numerics
-      !> The result
       type(result_t), intent(inout) :: result
       !> Estimated errors of sliding speed, means and extremes [-]
       real(wp), intent(in) :: estimates(3)
@@ -414,7 +409,6 @@ contains
 
    !> Estimated errors of a result: of the sliding speed, of the means, of the extremes.
    subroutine get_estimates(result, estimates, error)
-      !> The result
       type(result_t), intent(in) :: result
       !> Errors [-]
       real(wp), intent(out) :: estimates(3)

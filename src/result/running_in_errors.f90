@@ -50,7 +50,6 @@ contains
 
    !> Errors of a series relative to its mean and to its range, where they are larger than those before.
    subroutine take_larger(result, name, hours, largest, error)
-      !> The result
       type(result_t), intent(in) :: result
       !> Name of the series, which the result need not have
       character(len=*), intent(in) :: name
@@ -80,7 +79,6 @@ contains
 
    !> Add an error to a statement.
    subroutine add_to(result, name, mistake)
-      !> The result
       type(result_t), intent(inout) :: result
       !> Name of the statement
       character(len=*), intent(in) :: name

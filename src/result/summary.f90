@@ -153,7 +153,6 @@ contains
 
    !> Loss of each source as power and as energy per cam revolution.
    subroutine add_losses(case, result, means, extremes, list)
-      !> The case
       type(case_t), intent(in) :: case
       !> Series
       type(result_t), intent(in) :: result
@@ -203,7 +202,6 @@ contains
    subroutine add_engine_scalars(list, case, result, means)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
       type(case_t), intent(in) :: case
       !> Series
       type(result_t), intent(in) :: result
@@ -300,7 +298,6 @@ contains
    subroutine add_margins(lobe, margins, event_load, list)
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
-      !> Its margins
       type(margins_t), intent(in) :: margins
       !> Smallest contact load with the valve off its seat [N]
       real(wp), intent(in) :: event_load
@@ -344,7 +341,6 @@ contains
       subroutine add_margin(name, force, margin)
          !> What the margin is of, and its force in words
          character(len=*), intent(in) :: name, force
-         !> The margin
          type(margin_t), intent(in) :: margin
 
          call add(list, "margin_"//name, "N", "smallest "//force//", without friction", "dynamics", &
@@ -361,7 +357,6 @@ contains
    subroutine add_shares(lobe, model, statistics, list)
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
-      !> Its model
       type(model_t), intent(in) :: model
       !> Means over its cycle
       type(statistics_t), intent(in) :: statistics

@@ -164,7 +164,6 @@ contains
 
    !> Give an outcome the shape of a shaft: another one may have filled it before.
    pure subroutine fit_outcome(outcome, camshafts, bearings)
-      !> The outcome
       type(shaft_outcome_t), intent(inout) :: outcome
       !> Number of camshafts, and of the bearings of each
       integer, intent(in) :: camshafts, bearings
@@ -201,7 +200,6 @@ contains
 
    !> Torque of the bearings of each camshaft at inputs and forces.
    subroutine bearings_at(case, shaft, inputs, forces, turned, torques, error, bearings)
-      !> The case
       type(case_t), intent(in) :: case
       !> The shaft; its bearings, seals and drive are set to the inputs
       type(shaft_t), intent(inout) :: shaft

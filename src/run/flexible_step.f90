@@ -135,7 +135,6 @@ contains
 
    !> Let the model follow the inputs over a piece.
    subroutine set_inputs(follower, to, start, finish, error)
-      !> The follower
       type(follower_t), intent(inout) :: follower
       !> Cam angle at the end of the piece [rad]
       real(wp), intent(in) :: to
@@ -256,7 +255,6 @@ contains
    subroutine add_means(model, piece, part, outcome, error)
       !> The model, which follows the inputs
       type(model_t), intent(inout) :: model
-      !> The piece
       type(drive_t), intent(in) :: piece
       !> Part of the step that the piece is [-]
       real(wp), intent(in) :: part
@@ -307,7 +305,6 @@ contains
    subroutine take_sample(model, piece, angle, interval, forces, met, sample, error)
       !> The model, which follows the inputs
       type(model_t), intent(inout) :: model
-      !> The piece
       type(drive_t), intent(in) :: piece
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -349,7 +346,6 @@ contains
    subroutine sample_nodes(model, piece, ends, nodes, error)
       !> The model, which follows the inputs
       type(model_t), intent(inout) :: model
-      !> The piece
       type(drive_t), intent(in) :: piece
       !> Its first and last angle from full lift [rad]
       real(wp), intent(in) :: ends(2)

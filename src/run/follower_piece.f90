@@ -172,7 +172,6 @@ contains
    subroutine sample_nodes(model, piece, ends, nodes, error)
       !> The model, which follows the inputs
       type(model_t), intent(inout) :: model
-      !> The piece
       type(cycle_t), intent(in) :: piece
       !> Its first and last angle from full lift [rad]
       real(wp), intent(in) :: ends(2)

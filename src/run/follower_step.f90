@@ -296,7 +296,6 @@ contains
 
    !> One piece of a step, shorter than a turn.
    subroutine advance_piece(follower, to, start, finish, part, outcome, has_state, direction, error, nodes)
-      !> The follower
       type(follower_t), intent(inout) :: follower
       !> Cam angle at the end [rad]
       real(wp), intent(in) :: to
@@ -365,11 +364,9 @@ contains
 
    !> State of the follower at its cam angle with its roller's spin.
    subroutine state_with_spin(follower, direction, state, error)
-      !> The follower
       type(follower_t), intent(in) :: follower
       !> Direction of sliding, 0 at rest; not allocated where the sliding speed decides
       integer, allocatable, intent(in) :: direction
-      !> State
       type(state_t), intent(out) :: state
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error

@@ -68,7 +68,6 @@ contains
 
    !> Loads, friction and torques of states over the turn.
    subroutine follow_states(model, parts)
-      !> The model
       type(model_t), intent(in) :: model
       !> Five numbers of each state, 0 where there is none
       integer(int64), intent(inout) :: parts(:)
@@ -92,7 +91,6 @@ contains
    subroutine mark_oil(lubricant, mark)
       !> The oil
       type(lubricant_t), intent(in) :: lubricant
-      !> The mark
       integer(int64), intent(inout) :: mark
 
       type(oil_t) :: oil
@@ -115,7 +113,6 @@ contains
    subroutine mark_boundary(boundary, mark)
       !> Asperities and their friction
       type(boundary_part_t), intent(in) :: boundary
-      !> The mark
       integer(int64), intent(inout) :: mark
 
       type(boundary_part_t) :: part
@@ -138,7 +135,6 @@ contains
    subroutine mark_train(flexible, mark)
       !> The train
       type(flexible_t), intent(in) :: flexible
-      !> The mark
       integer(int64), intent(inout) :: mark
 
       integer(int64), allocatable :: parts(:)

@@ -90,13 +90,11 @@ contains
 
    !> Run a case whose models are there.
    subroutine run_chosen(case, models, with_series, result, error)
-      !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape; without what is left out afterwards
       type(model_t), intent(inout) :: models(:)
       !> Does the result hold series?
       logical, intent(in) :: with_series
-      !> Its result
       type(result_t), intent(out) :: result
       !> What went wrong, of any kind
       type(error_t), allocatable, intent(out) :: error
@@ -121,13 +119,11 @@ contains
 
    !> Run a case with all its effects, after the hours of running that it has.
    subroutine run_aged(case, models, with_series, result, error)
-      !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape; out: with surfaces as they are after these hours
       type(model_t), intent(inout) :: models(:)
       !> Does the result hold series?
       logical, intent(in) :: with_series
-      !> Its result
       type(result_t), intent(out) :: result
       !> What went wrong, of any kind
       type(error_t), allocatable, intent(out) :: error
@@ -155,13 +151,11 @@ contains
    !> speed is, and the motion has a period. So they are with another method and another tolerance where they could not be. What a
    !> later try cannot do leaves the result of an earlier one, with a remark; without any figure that is right there is no result.
    subroutine run_listed(case, models, with_series, result, error)
-      !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
       !> Does the result hold series?
       logical, intent(in) :: with_series
-      !> Its result
       type(result_t), intent(out) :: result
       !> What went wrong, of any kind
       type(error_t), allocatable, intent(out) :: error
@@ -286,9 +280,7 @@ contains
 
    !> Integrate all lobe shapes.
    subroutine integrate_models(case, series, models, numerics, try, error)
-      !> The case
       type(case_t), intent(in) :: case
-      !> Its series
       type(quantity_t), intent(in) :: series(:)
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
@@ -315,7 +307,6 @@ contains
 
    !> Does a smaller tolerance lead to the same cycle with a smaller error?
    pure function may_be_refined(cycle) result(verdict)
-      !> The cycle
       type(cycle_t), intent(in) :: cycle
       !> Does it, as far as is known?
       logical :: verdict

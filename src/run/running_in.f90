@@ -100,7 +100,6 @@ contains
    subroutine add_slip_error(plan, model, now, rates, aged, error)
       !> What is given
       type(plan_t), intent(in) :: plan
-      !> The model
       type(model_t), intent(inout) :: model
       !> Surfaces at the end, and their rates
       type(surfaces_t), intent(in) :: now
@@ -131,7 +130,6 @@ contains
 
    !> What is given, and the model with its surfaces as they are at first.
    subroutine make_plan(case, model, plan)
-      !> The case
       type(case_t), intent(in) :: case
       !> Its model; out: with surfaces
       type(model_t), intent(inout) :: model
@@ -266,7 +264,6 @@ contains
       real(wp), intent(in) :: relaxed, used
       !> Errors of the step: of thicknesses, of depths of the cam and of the roller, relative as the accuracy is [-]
       real(wp), intent(in) :: mistakes(3)
-      !> The error
       type(error_t), allocatable, intent(out) :: error
 
       character(len=*), parameter :: names(3) = [character(len=32) :: "the film's thickness", "the depth worn from the cam", &
@@ -435,7 +432,6 @@ contains
 
    !> What the numbers of a row mean.
    subroutine list_history(quantities)
-      !> The quantities
       type(quantity_t), allocatable, intent(out) :: quantities(:)
 
       type(quantity_list_t) :: list

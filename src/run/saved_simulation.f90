@@ -156,7 +156,6 @@ contains
 
    !> Place of a cam's point in the block of a shaft.
    pure function point_place(cam) result(place)
-      !> The cam
       integer, intent(in) :: cam
       !> Place of its first word
       integer :: place
@@ -209,7 +208,6 @@ contains
 
    !> What a follower remembers, as words.
    pure function words_of(point) result(block)
-      !> The point
       type(point_t), intent(in) :: point
       !> The words
       integer(int64) :: block(point_words)

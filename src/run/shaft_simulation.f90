@@ -189,7 +189,6 @@ contains
 
    !> Refuse a step that cannot be.
    subroutine check_shaft_step(shaft, cam_angle, pressures, error)
-      !> The shaft
       type(shaft_simulation_t), intent(in) :: shaft
       !> Cam angle at the end of the step [rad]
       real(wp), intent(in) :: cam_angle
@@ -206,9 +205,7 @@ contains
 
    !> Advance the follower of one cam.
    subroutine advance_cam(follower, cam, cam_angle, inputs, outcome, nodes, error, pressures)
-      !> The follower
       type(simulation_t), intent(inout) :: follower
-      !> The cam
       integer, intent(in) :: cam
       !> Its angle at the end of the step [rad]
       real(wp), intent(in) :: cam_angle
@@ -295,7 +292,6 @@ contains
 
    !> Refuse a cam that a shaft has not.
    subroutine check_cam(shaft, cam, smallest, caller, error)
-      !> The shaft
       type(shaft_simulation_t), intent(in) :: shaft
       !> The cam, and the smallest number that is allowed
       integer, intent(in) :: cam, smallest
@@ -390,9 +386,7 @@ contains
 
    !> Refuse an outcome that no step of a shaft has filled.
    subroutine check_outcome(shaft, outcome, error)
-      !> The shaft
       type(shaft_simulation_t), intent(in) :: shaft
-      !> The outcome
       type(shaft_outcome_t), intent(in) :: outcome
       !> Usage error
       type(error_t), allocatable, intent(out) :: error

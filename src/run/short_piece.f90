@@ -157,7 +157,6 @@ contains
 
    !> Sample places of a part.
    subroutine sample_part(samples, part, which, nearby, slip_errors, is_enough, states)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> The part; out: with values and contacts at these places
       type(part_t), intent(inout) :: part
@@ -217,7 +216,6 @@ contains
    !> The integration begins a piece with short steps where the roller first decays to its slow motion. The first part holds some
    !> lengths of that decay; then the part with the largest error is divided in two.
    subroutine integrate_parts(samples, parts, decay_rate, gas, allowed, nearby, slip_errors, torques, drive_error, excess)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> The first: the piece with what is known at its ends; out: its parts
       type(part_t), intent(inout) :: parts(most_parts)
@@ -379,7 +377,6 @@ contains
 
    !> Sample an angle of the piece.
    subroutine sample_place(samples, angle, contact, is_solved, accuracy, status)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -408,7 +405,6 @@ contains
    pure subroutine keep_contact(known, place, contact)
       !> The contacts
       type(known_t), intent(inout) :: known
-      !> The place
       integer, intent(in) :: place
       !> The contact there
       type(contact_t), intent(in) :: contact
@@ -421,7 +417,6 @@ contains
    pure function contact_at(known, place) result(contact)
       !> The contacts
       type(known_t), intent(in) :: known
-      !> The place
       integer, intent(in) :: place
       !> The contact
       type(contact_t) :: contact

@@ -148,7 +148,6 @@ contains
    subroutine check_start(caller, case, lobe, error)
       !> Who asks
       character(len=*), intent(in) :: caller
-      !> The case
       type(case_t), intent(in) :: case
       !> Lobe shape
       integer, intent(in) :: lobe

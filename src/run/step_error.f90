@@ -97,13 +97,11 @@ contains
 
    !> Take in a state.
    pure subroutine judge_state(errors, model, length, slip, decay_rate, state)
-      !> The errors
       type(slip_error_t), intent(inout) :: errors
       !> Model of the lobe, which follows the inputs
       type(model_t), intent(in) :: model
       !> Length of the piece [rad]; error of the sliding speed that is known there [m/s]; decay rate of a disturbance [1/rad]
       real(wp), intent(in) :: length, slip, decay_rate
-      !> The state
       type(state_t), intent(in) :: state
 
       ! Errors carried on from earlier steps over what is allowed [-]; error of the traction [N]
@@ -193,7 +191,6 @@ contains
    pure function torque_with(model, state, slip, traction) result(error)
       !> Model of the lobe, set to the inputs there
       type(model_t), intent(in) :: model
-      !> The state
       type(state_t), intent(in) :: state
       !> Error of the sliding speed [m/s], and of the traction, of either sign [N]
       real(wp), intent(in) :: slip, traction

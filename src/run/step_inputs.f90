@@ -95,7 +95,6 @@ contains
 
    !> Refuse gas pressures that cannot be.
    subroutine check_gas(model, start, finish, error)
-      !> The model
       type(model_t), intent(in) :: model
       !> Inputs at both ends of a step
       type(inputs_t), intent(in) :: start, finish
@@ -144,7 +143,6 @@ contains
 
    !> Refuse supply pressures that cannot be.
    subroutine check_supply(model, start, finish, error)
-      !> The model
       type(model_t), intent(in) :: model
       !> Inputs at both ends of a step
       type(inputs_t), intent(in) :: start, finish

@@ -105,9 +105,7 @@ contains
    subroutine add_turn(plan, model, cycle, rates, error)
       !> What is given
       type(plan_t), intent(in) :: plan
-      !> The model
       type(model_t), intent(in) :: model
-      !> Its cycle
       type(cycle_t), intent(in) :: cycle
       !> Rates; out: with these
       type(rates_t), intent(inout) :: rates
@@ -131,7 +129,6 @@ contains
    subroutine add_flexible_turn(plan, model, solution, turn, rates, error)
       !> What is given
       type(plan_t), intent(in) :: plan
-      !> The model
       type(model_t), intent(in) :: model
       !> All turns of a period
       type(flexible_solution_t), intent(in) :: solution
@@ -179,7 +176,6 @@ contains
    pure subroutine add_to_cam(plan, model, contact, place, turns, rates)
       !> What is given
       type(plan_t), intent(in) :: plan
-      !> The model
       type(model_t), intent(in) :: model
       !> State of the contact
       type(contact_t), intent(in) :: contact
@@ -202,7 +198,6 @@ contains
    pure subroutine add_to_roller(plan, model, contact, times, rates)
       !> What is given
       type(plan_t), intent(in) :: plan
-      !> The model
       type(model_t), intent(in) :: model
       !> State of the contact
       type(contact_t), intent(in) :: contact

@@ -214,7 +214,6 @@ contains
    pure subroutine add_follower(list, case, model, state)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
       type(case_t), intent(in) :: case
       !> The model of its lobe
       type(model_t), intent(in) :: model
@@ -280,7 +279,6 @@ contains
    pure subroutine add_joints(list, case, joints)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
       type(case_t), intent(in) :: case
       !> Their values
       type(joint_values_t), intent(in) :: joints
@@ -311,7 +309,6 @@ contains
    pure subroutine add_flexible(list, case, train)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
       type(case_t), intent(in) :: case
       !> What the train has beside a rigid one
       type(flexible_values_t), intent(in) :: train
@@ -353,7 +350,6 @@ contains
    pure subroutine add_camshafts(list, case, has, torques, bearings)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
       type(case_t), intent(in) :: case
       !> Which torques it has
       logical, intent(in) :: has(torque_count)
@@ -465,7 +461,6 @@ contains
 
    !> Does the case have rolling resistance?
    pure function has_rolling(case) result(has)
-      !> The case
       type(case_t), intent(in) :: case
       !> True where a law is chosen
       logical :: has

@@ -199,7 +199,6 @@ contains
 
    !> What a tribofilm that grows over hours can change of the asperities' coefficient at most: the scale of its errors.
    pure function largest_coefficient_change(case) result(change)
-      !> The case
       type(case_t), intent(in) :: case
       !> The change; zero without such a film [-]
       real(wp) :: change
@@ -291,7 +290,6 @@ contains
    !> Load per length of an even contact with the valve closed, on the base circle or by its spring: a slice that is loaded for a
    !> moment alone begins and ends with kinks, and errors are not relative to its own small mean.
    pure function closed_load(case) result(load)
-      !> The case
       type(case_t), intent(in) :: case
       !> The load per length [N/m]
       real(wp) :: load
@@ -355,7 +353,6 @@ contains
    pure subroutine add_bearing(list, case, state, bearing, shaft)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
       type(case_t), intent(in) :: case
       !> State of the bearing
       type(bearing_state_t), intent(in) :: state

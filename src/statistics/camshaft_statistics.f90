@@ -390,7 +390,6 @@ contains
    !> Find the row of the camshafts at a cam angle among those kept, or solve it, with what it is without the error of the sliding
    !> speed of each follower, or of a flexible train with a finer tolerance: by the states, not by the curves.
    subroutine keep_row(kept, solved, statistics, angle, place, error)
-      !> The rows
       type(kept_rows_t), intent(inout) :: kept
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved

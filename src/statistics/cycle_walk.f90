@@ -117,7 +117,6 @@ contains
 
    !> Sample an interval or two as one panel.
    subroutine sample_intervals(samples, first, last, walk, error)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> First and last interval
       integer, intent(in) :: first, last
@@ -175,7 +174,6 @@ contains
    !> Take a point for the estimate of the error: its defect, and its decay rate at the points of the rule of three, or near the
    !> middle of each interval where the panel has two.
    subroutine judge_point(samples, angle, interval, place, point, is_joined, values, walk)
-      !> The samples
       type(follower_samples_t), intent(in) :: samples
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -223,7 +221,6 @@ contains
       type(cycle_t), intent(in) :: cycle
       !> First and last interval of the panel
       integer, intent(in) :: first, last
-      !> The walk
       type(walk_t), intent(inout) :: walk
 
       ! Defects at both ends [m/s/rad], largest error so far [m/s]
@@ -243,7 +240,6 @@ contains
 
    !> Defects at the start of an interval and at the end of another: slopes of the curve less the rates of the equation there.
    pure subroutine end_defects(path, first, last, ends)
-      !> The trajectory
       type(trajectory_t), intent(in) :: path
       !> The intervals
       integer, intent(in) :: first, last

@@ -112,7 +112,6 @@ contains
 
    !> Series and torques at a cam angle, with zero for torques among the series and for what follows from stored energy.
    subroutine sample(self, x, values, error)
-      !> The samples
       class(follower_samples_t), intent(inout) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: x

@@ -66,7 +66,6 @@ contains
    pure subroutine note_curve(curve, law, force, speed, weight)
       !> The joint
       type(curve_shares_t), intent(inout) :: curve
-      !> Its law
       type(sliding_law_t), intent(in) :: law
       !> Force between the surfaces [N], sliding speed, of either sign [m/s]
       real(wp), intent(in) :: force, speed

@@ -144,9 +144,7 @@ contains
 
    !> Halve panels until the means are within the tolerance.
    subroutine refine_means(panels, samples, tolerance, least, films, error)
-      !> The panels
       type(panels_t), intent(inout) :: panels
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Error allowed, relative to the mean magnitude of each quantity [-]; what counts as none of each series [unit times rad]
       real(wp), intent(in) :: tolerance, least(:)
@@ -202,9 +200,7 @@ contains
 
    !> Means of series and torques from the integrals and the stored energy.
    subroutine take_means(panels, samples, work, span, statistics)
-      !> The panels
       type(panels_t), intent(in) :: panels
-      !> The samples
       type(follower_samples_t), intent(in) :: samples
       !> Work of what is stored
       type(stored_work_t), intent(inout) :: work
@@ -240,13 +236,11 @@ contains
 
    !> Largest error of a mean, relative to the mean magnitude of its quantity.
    subroutine judge_means(panels, slip_errors, span, series, films, statistics)
-      !> The panels
       type(panels_t), intent(in) :: panels
       !> Errors of the integrals caused by the error of the sliding speed [unit of each times rad]
       real(wp), intent(in) :: slip_errors(:)
       !> Length of the cycle [rad]
       real(wp), intent(in) :: span
-      !> The series
       type(quantity_t), intent(in) :: series(:)
       !> First and last series that is a film without a mean
       integer, intent(in) :: films(2)
@@ -313,9 +307,7 @@ contains
 
    !> Sample a cycle or a piece of one for its torques alone, two intervals a panel where no stop parts them.
    subroutine walk_along(samples, panels, work, error)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
-      !> The panels
       type(panels_t), intent(out) :: panels
       !> Work of what is stored
       type(stored_work_t), intent(inout) :: work

@@ -124,7 +124,6 @@ contains
       type(solved_t), intent(in) :: solved
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
-      !> Its margins
       type(margins_t), intent(in) :: margins
       !> Its curve, with contacts to start from
       type(lobe_curve_t), intent(in) :: curve
@@ -331,7 +330,6 @@ contains
 
    !> Find the state at a cam angle among the last ones, or solve it: many series have their extremes at the same angles.
    subroutine keep_state(kept, solved, lobe, curve, angle, place, error)
-      !> The states
       type(kept_states_t), intent(inout) :: kept
       !> The solved case
       type(solved_t), intent(in) :: solved

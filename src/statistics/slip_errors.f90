@@ -314,9 +314,7 @@ contains
 
    !> What is sampled at a point less what would be without the error of the sliding speed.
    pure subroutine evaluate_difference(points, samples, place, error, differences)
-      !> The points
       type(slip_points_t), intent(in) :: points
-      !> The samples
       type(follower_samples_t), intent(in) :: samples
       !> Which of the points
       integer, intent(in) :: place

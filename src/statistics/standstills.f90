@@ -88,7 +88,6 @@ contains
 
    !> Angle between two points at which the entrainment speed changes its sign.
    subroutine find_reversal(samples, left, right, is_found, angle, error)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Points before and after
       type(entrainment_t), intent(in) :: left, right
@@ -146,7 +145,6 @@ contains
 
    !> Add the state without entrainment at a cam angle to the rows.
    subroutine add_state_at_rest(samples, angle, error)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -163,7 +161,6 @@ contains
 
    !> Add the state at a cam angle with a sliding speed that is known exactly to the rows.
    subroutine add_exact_state(samples, angle, sliding_speed)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -279,7 +276,6 @@ contains
 
    !> Find the largest change by halving, the first of equal ones: loads have no sign that would tell how far away it is.
    subroutine find_change(samples, last, point, error)
-      !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Point behind the change
       type(entrainment_t), intent(in) :: last

@@ -107,7 +107,6 @@ contains
    !> May contact be lost and return at angles that are not known before the integration? With drag of the roller's bearing its
    !> spin has a part in them, and with a speed that changes stops are those of the mean speed.
    pure function has_free_losses(model)
-      !> The model
       type(model_t), intent(in) :: model
       !> True where they may
       logical :: has_free_losses
@@ -193,7 +192,6 @@ contains
 
    !> Energy stored in spring, seat and moving masses at a cam angle.
    function energy_at(samples, angle) result(energy)
-      !> The samples
       type(follower_samples_t), intent(in) :: samples
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle

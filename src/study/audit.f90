@@ -120,7 +120,6 @@ contains
 
    !> Row of a run.
    subroutine add_outcome(table, position, run, full, base, outcome, decision, effect, choice)
-      !> The table
       type(study_table_t), intent(inout) :: table
       !> Number of the case, from 1
       integer, intent(in) :: position
@@ -173,7 +172,6 @@ contains
 
    !> What effects are judged by, in the order of `quantity_names`.
    pure function quantities_of(trial) result(values)
-      !> A trial
       type(trial_t), intent(in) :: trial
       !> Mean torque for all losses [N m], smallest film [m], slip per revolution [-]
       real(wp) :: values(size(judged))

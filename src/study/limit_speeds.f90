@@ -163,11 +163,9 @@ contains
 
    !> Keep what remarks of a speed have to be told, at the lowest speed of each kind.
    pure subroutine note_first(search, speed, remarks)
-      !> The search
       type(limits_t), intent(inout) :: search
       !> The speed [rad/s]
       real(wp), intent(in) :: speed
-      !> Its remarks
       type(remark_t), intent(in) :: remarks(:)
 
       integer :: i, k
@@ -187,7 +185,6 @@ contains
 
    !> The speed to try next: the middle of a limit's bracket, or where all that have one are narrow the next of the scan.
    pure function next_speed(search) result(speed)
-      !> The search
       type(limits_t), intent(in) :: search
       !> The speed; zero where the search is at its end [rad/s]
       real(wp) :: speed
@@ -209,7 +206,6 @@ contains
 
    !> Which limits a flexible train can have.
    pure function applies(search) result(can)
-      !> The search
       type(limits_t), intent(in) :: search
       !> One for each limit
       logical :: can(limit_count)
@@ -220,7 +216,6 @@ contains
 
    !> What the train does at a speed.
    subroutine judge_speed(search, speed, is_passed, period, remarks, error)
-      !> The search
       type(limits_t), intent(in) :: search
       !> The speed [rad/s]
       real(wp), intent(in) :: speed

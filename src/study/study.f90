@@ -147,7 +147,6 @@ contains
    subroutine make_reference(plan, case, reference, disagreement, note, error)
       !> How it is made; out: with the methods that made it
       type(plan_t), intent(inout) :: plan
-      !> The case
       type(case_t), intent(in) :: case
       !> What counts as right
       type(trial_t), intent(out) :: reference
@@ -230,7 +229,6 @@ contains
 
    !> The failure of a reference as an error.
    subroutine raise_failure(trial, name, error)
-      !> The trial
       type(trial_t), intent(in) :: trial
       !> Its method or model
       character(len=*), intent(in) :: name
@@ -401,7 +399,6 @@ contains
       type(study_table_t), intent(inout) :: table
       !> Number of the case, from 1
       integer, intent(in) :: position
-      !> The way
       type(way_t), intent(in) :: way
       !> What counts as right
       type(trial_t), intent(in) :: reference
@@ -431,7 +428,6 @@ contains
 
    !> Give the last row what a run says of itself.
    subroutine set_work(table, trial)
-      !> The table
       type(study_table_t), intent(inout) :: table
       !> The run
       type(trial_t), intent(in) :: trial

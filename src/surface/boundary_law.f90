@@ -103,9 +103,7 @@ contains
 
    !> Take the table of a law.
    subroutine set_table(curve, law, error)
-      !> The curve
       type(boundary_curve_t), intent(inout) :: curve
-      !> The law
       type(boundary_law_t), intent(in) :: law
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
@@ -250,7 +248,6 @@ contains
 
    !> Give a value weight.
    pure subroutine add_value(weights, point, value, slope)
-      !> The weights
       type(weights_t), intent(inout) :: weights
       !> Number of the value
       integer, intent(in) :: point
@@ -265,7 +262,6 @@ contains
 
    !> Give the slope at a point weight: that of the parabola through it and its neighbours; none at an end.
    pure subroutine add_slope(weights, points, point, value, slope)
-      !> The weights
       type(weights_t), intent(inout) :: weights
       !> Points, increasing [x]
       real(wp), intent(in) :: points(:)

@@ -355,7 +355,6 @@ contains
    !> In the exponents e_i these are interpolation conditions, solved by Lagrange's formula: `c_i = -product over j /= i
    !> of e_j/(e_j - e_i)`.
    subroutine take_exponents(law, lift, error)
-      !> The law
       type(lift_law_t), intent(inout) :: law
       !> What the case says
       type(lift_t), intent(in) :: lift
@@ -409,7 +408,6 @@ contains
 
    !> Take segments of the acceleration.
    subroutine take_segments(law, lift, error)
-      !> The law
       type(lift_law_t), intent(inout) :: law
       !> What the case says
       type(lift_t), intent(in) :: lift
@@ -433,7 +431,6 @@ contains
 
    !> Take a table.
    subroutine take_table(law, lift, error)
-      !> The law
       type(lift_law_t), intent(inout) :: law
       !> What the case says
       type(lift_t), intent(in) :: lift

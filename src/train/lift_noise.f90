@@ -191,7 +191,6 @@ contains
 
    !> Smallest and largest second derivative of a lift over its table.
    subroutine find_range(law, lift, range)
-      !> The law
       type(lift_law_t), intent(in) :: law
       !> The lift that it was made of
       type(lift_t), intent(in) :: lift

@@ -156,7 +156,6 @@ contains
    pure function part_of(shape, node) result(part)
       !> Accelerations [any]
       real(wp), intent(in) :: shape(:)
-      !> The node
       integer, intent(in) :: node
       !> The part
       integer :: part

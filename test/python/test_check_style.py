@@ -49,6 +49,24 @@ def test_good_code_passes(tmp_path, capsys):
     assert faults(tmp_path, capsys, GOOD) == []
 
 
+@pytest.mark.parametrize(("comment", "name", "is_fault"), [
+    ("The sample", "sample", True), ("Its samples", "sample", True), ("The sample", "where", True),
+    ("The sample, from 1", "sample", False), ("Where it begins", "sample", False), ("Sample [m]", "where", False)])
+def test_comments_on_arguments_say_more_than_their_declaration(tmp_path, capsys, comment, name, is_fault):
+    """Of private procedures; what is public has its docstring."""
+    for place, inner in enumerate(("public", "private")):
+        procedure = f"""   subroutine {'half' if inner == 'public' else 'inner'}({name})
+      !> {comment}
+      type(sample_t), intent(in) :: {name}
+   end subroutine
+
+end module"""
+        text = GOOD.replace("   pure function half", "   pure function whole").replace("   end function half", "   end function whole")
+        text = text.replace("end module", procedure).replace("real(wp) :: stop_length ! [m]\n\n      stop_length", "real(wp) :: other ! [m]\n\n      other")
+        found = faults(tmp_path / str(place), capsys, text.replace("0.5_wp*stop_length", "0.5_wp*other"))
+        assert found == (["echo"] if is_fault and inner == "private" else [])
+
+
 @pytest.mark.parametrize(("old", "new", "rule"), [
     (", only : wp", ", only : wp, pi", "import"),
     (", only : wp", ", only : wp, circle => pi", "import"),
