@@ -99,15 +99,27 @@ contains
 
       if (limit == adjuster_limit .and. .not. search%has_adjuster) then
          words = "-"
-      else if (search%above(limit) <= search%highest .and. search%period(limit) == 0) then
-         words = "about "//number_text(search%above(limit)*per_minute, 3)
       else if (search%above(limit) <= search%highest) then
-         words = number_text(search%above(limit)*per_minute, 5)
+         call passed_text(search, limit, words)
       else
          words = "above "//number_text(merge(min(search%below(limit), search%above(closing_limit)), search%below(limit), &
             & limit == seating_limit)*per_minute, 5)
       end if
    end subroutine flexible_text
+
+   !> Speed at which a limit is passed: without a period about that one.
+   subroutine passed_text(search, limit, words)
+      type(limits_t), intent(in) :: search
+      !> Which limit
+      integer, intent(in) :: limit
+      character(len=:), allocatable, intent(out) :: words
+
+      if (search%period(limit) == 0) then
+         words = "about "//number_text(search%above(limit)*per_minute, 3)
+      else
+         words = number_text(search%above(limit)*per_minute, 5)
+      end if
+   end subroutine passed_text
 
    !> What else there is to say of a limit: where the train does not repeat itself in each cycle, where it is regained, and where
    !> the valve has no speed of seating.
@@ -118,8 +130,10 @@ contains
       character(len=:), allocatable, intent(out) :: words
 
       words = ""
-      if (limit == seating_limit .and. search%above(closing_limit) < min(search%highest, search%above(limit))) words = &
-         & "   from "//number_text(search%above(closing_limit)*per_minute, 5)//" on it does not close"
+      if (limit == seating_limit .and. search%above(closing_limit) < min(search%highest, search%above(limit))) then
+         call passed_text(search, closing_limit, words)
+         words = "   from "//words//" on it does not close"
+      end if
       if (.not. search%above(limit) <= search%highest) return
       if (.not. search%below(limit) > 0.0_wp) words = words//"   from the lowest speed tried on"
       if (search%period(limit) == 0) words = words//"   without a period"
