@@ -1,5 +1,6 @@
 """The commands of the README, the reader of Fortran sources and the set-up."""
 
+import os
 import pathlib
 import re
 import shutil
@@ -286,3 +287,19 @@ def test_code_of_a_file_that_is_gone_leaves_the_library(tmp_path):
     for build in ("new", "old"):
         listed = subprocess.run(["ar", "t", f"build/{build}/camroller/libcamroller.a"], cwd=tmp_path, check=True, capture_output=True, text=True)
         assert listed.stdout.split() == kept
+
+
+def test_files_of_tests_alone_are_compiled_with_less_optimisation(tmp_path):
+    """The compiler is replaced by one that prints what it is told."""
+    compiler = tmp_path / "gfortran"
+    compiler.write_text('#!/bin/sh\nprintf "%s\\n" "$@"\n')
+    compiler.chmod(0o755)
+    flags = ["-g1", "-O3", "-flto=auto", "-ffat-lto-objects", "-Dtext=a b"]
+    told = {}
+    for source in ("test/main.f90", "test/contact/test_film.f90", "src/contact/film.f90", "app/main.f90", "build/dependencies/test/x.f90"):
+        words = subprocess.run([ROOT / "tools/gfortran", "-c", source, *flags], check=True, capture_output=True, text=True,
+                               env=os.environ | {"PATH": f"{tmp_path}:{os.environ['PATH']}"}).stdout.splitlines()
+        assert words[:2] == ["-c", source]
+        told[source] = words[2:]
+    assert [source for source, words in told.items() if words == ["-g1", "-Og", "-Dtext=a b"]] == ["test/main.f90", "test/contact/test_film.f90"]
+    assert [words for source, words in told.items() if not source.startswith("test/")] == [flags]*3
