@@ -194,11 +194,13 @@ contains
       !> Is there none?
       logical :: verdict
 
+      character(len=2*key_length) :: name
       integer :: i
 
       verdict = .false.
+      name = table_name(key)
       do i = 1, size(uses)
-         if (uses(i)%key /= table_name(key)) cycle
+         if (uses(i)%key /= name) cycle
          if (uses(i)%values == by_command) then
             verdict = of_runs
          else
@@ -215,11 +217,13 @@ contains
       !> The words
       character(len=:), allocatable, intent(out) :: words
 
+      character(len=2*key_length) :: name
       integer :: i
 
       words = ""
+      name = table_name(key)
       do i = 1, size(uses)
-         if (uses(i)%key /= table_name(key)) cycle
+         if (uses(i)%key /= name) cycle
          if (words /= "") words = words//", or "
          if (uses(i)%values == given) then
             words = words//"with "//numbered(uses(i)%choice, key)
@@ -247,14 +251,16 @@ contains
       !> The words
       character(len=:), allocatable, intent(out) :: words
 
+      character(len=2*key_length) :: name
       integer :: i
 
       call say_use(key, words)
       words = ": it is used "//words
-      if (any(uses%key == table_name(key) .and. uses%values == by_command)) words = " in a run"//words
+      name = table_name(key)
+      if (any(uses%key == name .and. uses%values == by_command)) words = " in a run"//words
       words = "has no effect"//words
       do i = 1, size(uses)
-         if (uses(i)%key /= table_name(key) .or. any(uses(i)%values == &
+         if (uses(i)%key /= name .or. any(uses(i)%values == &
             & [character(len=choice_length) :: given, not_given, above_zero])) cycle
          associate (value => settings%values(value_of(settings, choice_of(key, uses(i)))))
             if (.not. value%is_known) return
