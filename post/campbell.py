@@ -26,7 +26,7 @@ from matplotlib.figure import Figure  # noqa: E402
 import numpy as np  # noqa: E402
 
 from cases import missing_words, status_of  # noqa: E402
-from command import DPI, run, save_figure  # noqa: E402
+from command import DPI, script, save_figure  # noqa: E402
 from quantities import SPEED, camshaft_speed  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 from turns import turns_of  # noqa: E402
@@ -170,6 +170,7 @@ def draw_seating(axes, result, order, speed):
     axes.legend(lines, [line.get_label() for line in lines], frameon=False, loc="upper left")
 
 
+@script
 def main(arguments=None):
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog="campbell.py", description="draw how a flexible train answers to the speed")
@@ -178,17 +179,13 @@ def main(arguments=None):
     parser.add_argument("--name", help="its name (default: that of the file with _campbell)")
     parser.add_argument("--dpi", type=DPI, default=100, help="pixels per inch (default: 100)")
     options = parser.parse_args(arguments)
-    try:
-        result = read_result(options.file)
-        folder = Path(options.output) if options.output else result.path.parent
-        target = folder / f"{options.name or result.path.stem + '_campbell'}.png"
-        save_figure(draw(result), target, dpi=options.dpi)
-    except ResultError as problem:
-        print(f"campbell.py: {problem}", file=sys.stderr)
-        return 2
+    result = read_result(options.file)
+    folder = Path(options.output) if options.output else result.path.parent
+    target = folder / f"{options.name or result.path.stem + '_campbell'}.png"
+    save_figure(draw(result), target, dpi=options.dpi)
     print(f"campbell: {target}")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "campbell.py"))
+    sys.exit(main())

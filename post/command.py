@@ -1,6 +1,7 @@
 """Common to all scripts: exit codes, and the writing of files."""
 
 import argparse
+import functools
 import os
 from pathlib import Path
 import sys
@@ -14,19 +15,22 @@ POWER = r"$\mathdefault{"  # begins a number along a logarithmic axis
 CLOSED_PIPE = 141  # exit code of a program that a closed pipe ends: 128 and the number of the signal
 
 
-def run(main, name):
-    """Exit code of `main`. A closed pipe ends it quietly; what cannot be used, read or written is one line and code 2."""
-    try:
-        code = main()
-        sys.stdout.flush()
-    except BrokenPipeError:
-        _forget_output()
-        return CLOSED_PIPE
-    except (ResultError, OSError) as problem:
-        _forget_output()
-        print(f"{name}: {one_line(problem)}", file=sys.stderr)
-        return 2
-    return code
+def script(main):
+    """Decorator of the `main` of a script: a closed pipe ends it quietly; what cannot be used, read or written is one line and code 2."""
+    @functools.wraps(main)
+    def run(arguments=None):
+        try:
+            code = main(arguments)
+            sys.stdout.flush()
+        except BrokenPipeError:
+            _forget_output()
+            return CLOSED_PIPE
+        except (ResultError, OSError) as problem:
+            _forget_output()
+            print(f"{Path(main.__code__.co_filename).name}: {one_line(problem)}", file=sys.stderr)
+            return 2
+        return code or 0
+    return run
 
 
 def _forget_output():

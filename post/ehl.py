@@ -25,7 +25,7 @@ from matplotlib.colors import LogNorm  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 import numpy  # noqa: E402
 
-from command import run, save_figure  # noqa: E402
+from command import script, save_figure  # noqa: E402
 from layout import POINT  # noqa: E402
 from read import ResultError, opened, text_of  # noqa: E402
 from units import key_words, unit_words  # noqa: E402
@@ -220,6 +220,7 @@ def angle_of_a_turn(text: str) -> float:
     return angle
 
 
+@script
 def main(arguments=None) -> int:
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog="ehl.py", description="draw solved contacts over the cycle")
@@ -231,26 +232,22 @@ def main(arguments=None) -> int:
     parser.add_argument("--angles", type=angle_of_a_turn, nargs="+", default=[90.0, 125.0, 150.0, 180.0, 205.0],
                         help="cam angles of the profiles, 0 to 360 degrees")
     options = parser.parse_args(arguments)
-    try:
-        lobes = read(options.file, options.case)
-        point = read_point(options.file, options.case)
-        run_beside = read_run(options.run, options.case) if options.run else None
-        if options.run and read_point(options.run, options.case) != point:
-            raise ResultError(f"case {options.case} is of {point or 'no known point'} in {options.file}, and of "
-                              f"{read_point(options.run, options.case) or 'no known point'} in {options.run}")
-        for name, data in lobes.items():
-            if numpy.isnan(data["load"]).all():
-                raise ResultError(f"case {options.case} has no solved contacts")
-            lobe = "second lobe shape" if name else "first lobe shape" if has_second(options.file) else ""
-            title = ", ".join(filter(None, [read_title(options.file), f"case {options.case}", point, lobe]))
-            for target, make in ((options.output, lambda: draw(data, None if name else run_beside, options.angles, title)),
-                                 (options.map, lambda: draw_map(data, title))):
-                if target:
-                    path = pathlib.Path(target)
-                    save_figure(made(make, options.file), path.with_stem(path.stem + ("_" + name if name else "")), dpi=90)
-    except ResultError as error:
-        print(f"ehl.py: {error}", file=sys.stderr)
-        return 2
+    lobes = read(options.file, options.case)
+    point = read_point(options.file, options.case)
+    run_beside = read_run(options.run, options.case) if options.run else None
+    if options.run and read_point(options.run, options.case) != point:
+        raise ResultError(f"case {options.case} is of {point or 'no known point'} in {options.file}, and of "
+                          f"{read_point(options.run, options.case) or 'no known point'} in {options.run}")
+    for name, data in lobes.items():
+        if numpy.isnan(data["load"]).all():
+            raise ResultError(f"case {options.case} has no solved contacts")
+        lobe = "second lobe shape" if name else "first lobe shape" if has_second(options.file) else ""
+        title = ", ".join(filter(None, [read_title(options.file), f"case {options.case}", point, lobe]))
+        for target, make in ((options.output, lambda: draw(data, None if name else run_beside, options.angles, title)),
+                             (options.map, lambda: draw_map(data, title))):
+            if target:
+                path = pathlib.Path(target)
+                save_figure(made(make, options.file), path.with_stem(path.stem + ("_" + name if name else "")), dpi=90)
     return 0
 
 
@@ -263,4 +260,4 @@ def made(make, path: str) -> Figure:
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "ehl.py"))
+    sys.exit(main())

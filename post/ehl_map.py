@@ -15,7 +15,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy
 
-from command import one_line, run, save_figure
+from command import one_line, script, save_figure
 from read import ResultError
 
 LAWS = ["Dowson-Higginson", "Pan-Hamrock", "Masjedi-Khonsari", "Moes"]
@@ -54,19 +54,16 @@ def draw(table: numpy.ndarray):
     return figure
 
 
+@script
 def main(arguments=None) -> int:
     """Command line; returns the exit code."""
     words = sys.argv[1:] if arguments is None else arguments
     if len(words) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    try:
-        save_figure(draw(read(words[0])), words[1], dpi=90)
-    except ResultError as error:
-        print(f"ehl_map.py: {error}", file=sys.stderr)
-        return 2
+    save_figure(draw(read(words[0])), words[1], dpi=90)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "ehl_map.py"))
+    sys.exit(main())

@@ -13,7 +13,7 @@ import sys
 
 import numpy as np
 
-from command import run
+from command import script
 from ehl import mean_over_dry_contact
 from layout import POINT
 from read import ResultError, opened
@@ -69,6 +69,7 @@ def mean_and_largest(percent: np.ndarray) -> str:
     return f"{percent.mean():.1f}, {percent.max():.1f}"
 
 
+@script
 def main(arguments=None) -> None:
     """Command line."""
     parser = argparse.ArgumentParser(prog="film_heat.py", description=__doc__.splitlines()[0])
@@ -80,4 +81,4 @@ def main(arguments=None) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "film_heat.py"))
+    sys.exit(main())

@@ -28,7 +28,7 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
                             "svg.hashsalt": "camroller", "hatch.linewidth": 0.6, "hatch.color": "white"})
 
 from cases import failure_lines, not_computed_words, status_of  # noqa: E402
-from command import DPI, run, save_figure  # noqa: E402
+from command import DPI, script, save_figure  # noqa: E402
 from figures import FIGURES, WITHOUT_SERIES, draw  # noqa: E402
 from layout import Layout, chosen_cases  # noqa: E402
 from measured import case_words, cases_for, compare, draw_comparison, read_table  # noqa: E402
@@ -38,29 +38,26 @@ from read import ResultError, read_result  # noqa: E402
 NO_DATE = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 
 
+@script
 def main(arguments=None):
     """Command line; returns the exit code."""
     options = parser().parse_args(arguments)
-    try:
-        results = [read_result(path) for path in options.files]
-        if options.measured:
-            if options.figure or options.angles:
-                raise ResultError("--measured draws a figure of its own, over the whole turn: leave out --figure and --angles")
-            return draw_measured(results[0], options)
-        layout = Layout(results, options.cases)
-        for line in remarks(results, layout):
-            print(line)
-        folder = Path(options.output) if options.output else results[0].path.parent
-        wanted = options.figure or "all"
-        names = list(FIGURES) if wanted == "all" else [wanted]
-        if not any(result.series for result in results) and wanted == "all":
-            print(f"no series in {', '.join(str(result.path) for result in results)}, so no curves are drawn: plot_sweep.py draws "
-                  "other summaries, and series = 'all' or 'chosen' in &sweep keeps the series")
-            names = list(WITHOUT_SERIES)
-        drawn = [draw_to_file(name, layout, folder, options) for name in names]
-    except ResultError as error:
-        print(f"plot.py: {error}", file=sys.stderr)
-        return 2
+    results = [read_result(path) for path in options.files]
+    if options.measured:
+        if options.figure or options.angles:
+            raise ResultError("--measured draws a figure of its own, over the whole turn: leave out --figure and --angles")
+        return draw_measured(results[0], options)
+    layout = Layout(results, options.cases)
+    for line in remarks(results, layout):
+        print(line)
+    folder = Path(options.output) if options.output else results[0].path.parent
+    wanted = options.figure or "all"
+    names = list(FIGURES) if wanted == "all" else [wanted]
+    if not any(result.series for result in results) and wanted == "all":
+        print(f"no series in {', '.join(str(result.path) for result in results)}, so no curves are drawn: plot_sweep.py draws "
+              "other summaries, and series = 'all' or 'chosen' in &sweep keeps the series")
+        names = list(WITHOUT_SERIES)
+    drawn = [draw_to_file(name, layout, folder, options) for name in names]
     if not any(drawn):
         print("plot.py: nothing to draw", file=sys.stderr)
         return 2
@@ -137,4 +134,4 @@ def common_name(results):
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "plot.py"))
+    sys.exit(main())

@@ -21,7 +21,7 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
 from matplotlib.figure import Figure  # noqa: E402
 import numpy as np  # noqa: E402
 
-from command import run, save_figure  # noqa: E402
+from command import script, save_figure  # noqa: E402
 from read import ResultError, opened, text_columns  # noqa: E402
 from units import number  # noqa: E402
 
@@ -145,6 +145,7 @@ def _per_cent(part):
     return number(100.0 * part, 2)
 
 
+@script
 def main(arguments=None):
     """Command line; returns the exit code."""
     made = argparse.ArgumentParser(prog="plot_audit.py", description=__doc__,
@@ -156,19 +157,15 @@ def main(arguments=None):
     options = made.parse_args(arguments)
     path = Path(options.file)
     folder = Path(options.output) if options.output else path.parent
-    try:
-        audit = read_audit(path)
-        if options.table:
-            print(table(audit))
-            return 0
-        target = folder / f"{options.name or path.stem}.png"
-        save_figure(draw(audit), target, dpi=110)
-        print(target)
-    except ResultError as error:
-        print(f"plot_audit.py: {error}", file=sys.stderr)
-        return 2
+    audit = read_audit(path)
+    if options.table:
+        print(table(audit))
+        return 0
+    target = folder / f"{options.name or path.stem}.png"
+    save_figure(draw(audit), target, dpi=110)
+    print(target)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "plot_audit.py"))
+    sys.exit(main())

@@ -22,7 +22,7 @@ from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
 import numpy as np  # noqa: E402
 
-from command import run, save_figure  # noqa: E402
+from command import script, save_figure  # noqa: E402
 from read import ResultError, opened, text_columns  # noqa: E402
 
 COLOURS = ["#111111", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6a51a3"]
@@ -116,6 +116,7 @@ def drawn(table, path):
         raise ResultError(f"{path}: not a study that can be drawn: {error}") from None
 
 
+@script
 def main(arguments=None):
     """Command line; returns the exit code."""
     made = argparse.ArgumentParser(prog="plot_study.py", description=__doc__,
@@ -126,15 +127,11 @@ def main(arguments=None):
     options = made.parse_args(arguments)
     path = Path(options.file)
     folder = Path(options.output) if options.output else path.parent
-    try:
-        target = folder / f"{options.name or path.stem}_work_precision.png"
-        save_figure(drawn(read_study(path), path), target, dpi=110)
-        print(f"work_precision: {target}")
-    except ResultError as error:
-        print(f"plot_study.py: {error}", file=sys.stderr)
-        return 2
+    target = folder / f"{options.name or path.stem}_work_precision.png"
+    save_figure(drawn(read_study(path), path), target, dpi=110)
+    print(f"work_precision: {target}")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "plot_study.py"))
+    sys.exit(main())

@@ -34,7 +34,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: 
 import numpy as np  # noqa: E402
 
 from cases import lost_contact, lost_contact_words, missing_words, status_of  # noqa: E402
-from command import DPI, ONCE, names_of, run, save_figure, take_over  # noqa: E402
+from command import DPI, ONCE, names_of, script, save_figure, take_over  # noqa: E402
 from layout import TAKEN, groups_over, is_one_of, key_meant, some_numbers, thin_out  # noqa: E402
 from parts import WIDE  # noqa: E402
 from quantities import SPEED, given_shaft  # noqa: E402
@@ -444,6 +444,7 @@ def _note(figure, sweep, shown, more=(), mark=""):
     figure.suptitle("\n".join([textwrap.fill(sweep.title, width), *textwrap.wrap(", ".join(words), width)]), fontsize=9)
 
 
+@script
 def main(arguments=None):
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog="plot_sweep.py", description="draw how a result answers to what a sweep varies")
@@ -459,20 +460,16 @@ def main(arguments=None):
     parser.add_argument("--output", type=Path, help="folder; that of the file where not given")
     parser.add_argument("--dpi", type=DPI, default=150)
     options = parser.parse_args(arguments)
-    try:
-        over = names_of(options.over, "--over") or ()
-        sweep = Sweep(options.file, names_of(options.quantity, "--quantity") or [QUANTITY], options.where, over,
-                      take_over(options.take, over))
-        name = options.figure or suitable_figure(sweep)
-        figure = {"map": draw_map, "curves": draw_curves, "scatter": draw_scatter, "parallel": draw_parallel}[name](sweep)
-        target = (options.output or options.file.parent) / f"{options.file.stem}_{name}.png"
-        save_figure(figure, target, dpi=options.dpi)
-    except ResultError as error:
-        print(f"plot_sweep.py: {error}", file=sys.stderr)
-        return 2
+    over = names_of(options.over, "--over") or ()
+    sweep = Sweep(options.file, names_of(options.quantity, "--quantity") or [QUANTITY], options.where, over,
+                  take_over(options.take, over))
+    name = options.figure or suitable_figure(sweep)
+    figure = {"map": draw_map, "curves": draw_curves, "scatter": draw_scatter, "parallel": draw_parallel}[name](sweep)
+    target = (options.output or options.file.parent) / f"{options.file.stem}_{name}.png"
+    save_figure(figure, target, dpi=options.dpi)
     print(target)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "plot_sweep.py"))
+    sys.exit(main())

@@ -23,7 +23,7 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
 import numpy as np  # noqa: E402
 
 from cases import failure_lines, failures, missing_words, status_of  # noqa: E402
-from command import run, words_as_they_are, write_text  # noqa: E402
+from command import script, words_as_they_are, write_text  # noqa: E402
 from figures import draw  # noqa: E402
 from layout import Layout, TooMany  # noqa: E402
 from quantities import Missing  # noqa: E402
@@ -42,6 +42,7 @@ td.word, th.word { text-align: left; } figure { margin: 1.5em 0; break-inside: a
 @media print { body { font-size: 0.75em; margin: 0; } }"""
 
 
+@script
 def main(arguments=None):
     """Command line; returns the exit code."""
     options = parser().parse_args(arguments)
@@ -175,4 +176,4 @@ def facts_of(result):
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "report.py"))
+    sys.exit(main())

@@ -21,7 +21,7 @@ import sys
 import numpy as np
 
 from cases import failure_lines, lost_contact, lost_contact_words, not_computed, not_computed_words, status_of
-from command import ONCE, names_of, run, take_over, whole_number
+from command import ONCE, names_of, script, take_over, whole_number
 from layout import POINT, TAKEN, chosen_cases, groups_over, some_numbers
 from read import ResultError, read_result
 from units import distinct_texts, factor, fitting_unit, number, shaft_words, with_unit
@@ -170,6 +170,7 @@ def lost_contact_lines(result, cases) -> list[str]:
     return [f'{words}{which}{effect}.'] if lost else []
 
 
+@script
 def main(arguments=None) -> int:
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog='table.py', description='print a table of a result file in Markdown')
@@ -184,16 +185,12 @@ def main(arguments=None) -> int:
     limit.add_argument('--rows', type=whole_number(1, 10**9), default=MOST_ROWS, help=f'most rows (default: {MOST_ROWS})')
     limit.add_argument('--all', action='store_true', help='all rows')
     options = parser.parse_args(arguments)
-    try:
-        columns = names_of(options.columns, '--columns')
-        over = names_of(options.over, '--over') or ()
-        result = read_result(options.file, with_series=False)
-        print(table_of(result, columns, options.cases, None if options.all else options.rows, over, take_over(options.take, over)))
-    except ResultError as problem:
-        print(f'table.py: {problem}', file=sys.stderr)
-        return 2
+    columns = names_of(options.columns, '--columns')
+    over = names_of(options.over, '--over') or ()
+    result = read_result(options.file, with_series=False)
+    print(table_of(result, columns, options.cases, None if options.all else options.rows, over, take_over(options.take, over)))
     return 0
 
 
 if __name__ == '__main__':
-    sys.exit(run(main, 'table.py'))
+    sys.exit(main())

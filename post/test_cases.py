@@ -7,7 +7,6 @@ from matplotlib.text import Text
 import numpy as np
 import pytest
 
-from command import run
 import figures
 from figures import FIGURES, WITHOUT_SERIES, draw
 from layout import MOST_LISTED, Layout, thin_out, wrapped
@@ -225,7 +224,7 @@ def test_no_case_with_a_result_is_an_error(zipped, capsys):
         file["run/messages"] = ["nothing converges"] * 3
     for script, arguments in ((main, []), (report.main, []), (table.main, []), (table.main, ["--columns", "none_of_it"]),
                               (plot_sweep.main, [])):
-        assert run(lambda script=script, arguments=arguments: script([str(zipped), *arguments]), "script.py") == 2
+        assert script([str(zipped), *arguments]) == 2
         assert "no case has a result: nothing converges\n" in capsys.readouterr().err
 
 

@@ -13,7 +13,6 @@ import pytest
 
 import plot
 import report
-from command import run
 from figures import FIGURES, draw
 from layout import Layout, chosen_cases, thin_out
 from parts import closed, event_window, set_values_axis, suited
@@ -519,7 +518,7 @@ def test_a_damaged_series_is_told_and_not_left_out(tmp_path, capsys, script):
     with path.open("r+b") as file:
         file.seek(place)
         file.write(b"?" * 40)
-    assert run(lambda: script([str(path)]), "script.py") == 2
+    assert script([str(path)]) == 2
     assert f"{path}: cannot be read: " in capsys.readouterr().err
     assert not path.with_suffix(".html").exists()
 

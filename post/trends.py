@@ -26,7 +26,7 @@ from matplotlib.ticker import FixedLocator, NullLocator, ScalarFormatter  # noqa
 import numpy as np  # noqa: E402
 from scipy.stats import qmc, spearmanr  # noqa: E402
 
-from command import run, save_figure, write_text  # noqa: E402
+from command import script, save_figure, write_text  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 
 BASE = Path(__file__).resolve().parent.parent / "decks/sliding_joints.nml"
@@ -439,6 +439,7 @@ def draw(data):
     return figure
 
 
+@script
 def main(arguments=None):
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -464,4 +465,4 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "trends.py"))
+    sys.exit(main())

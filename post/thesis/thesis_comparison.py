@@ -14,12 +14,11 @@ import sys
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # the scripts of all figures and tables
 
-from command import run, write_text
+from command import script, write_text
 from comparison_claims import STATEMENTS, verdict
 from comparison_reasons import reason
 from comparison_runs import command_lines, read_runs
 from comparison_tables import as_printed, both_decks, each_choice, fixed_step, magnitudes, table
-from read import ResultError
 
 DECKS = ("thesis", "thesis_source")
 SHOWN = {"thesis": "`thesis.nml`", "thesis_source": "`thesis_source.nml`", "thesis_smoother":
@@ -39,6 +38,7 @@ degrees of it.
 """.splitlines()
 
 
+@script
 def main(arguments=None):
     """Command line; returns the exit code."""
     parser = argparse.ArgumentParser(prog="thesis_comparison.py", description=__doc__,
@@ -52,12 +52,8 @@ def main(arguments=None):
         return 0
     if not options.folder or not options.page:
         parser.error("a folder and --page, or --runs")
-    try:
-        text = "\n".join(page(read_runs(options.folder)))
-        write_text(options.page, text)
-    except ResultError as error:
-        print(f"thesis_comparison.py: {error}", file=sys.stderr)
-        return 2
+    text = "\n".join(page(read_runs(options.folder)))
+    write_text(options.page, text)
     return 0
 
 
@@ -108,4 +104,4 @@ def section(number, statement, runs):
 
 
 if __name__ == "__main__":
-    sys.exit(run(main, "thesis_comparison.py"))
+    sys.exit(main())
