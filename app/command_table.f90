@@ -3,7 +3,7 @@
 !> Out: the table, texts of the command `help`. `cli` reads the words of a command line by it; `commands` has one line for each
 !> command that says what runs.
 module camroller_command_table
-   use camroller_flexible_measures, only : event_words
+   use camroller_flexible_measure_list, only : event_words
    use camroller_limits_page, only : unseen_limit
    implicit none
    private

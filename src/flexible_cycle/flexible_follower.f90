@@ -16,7 +16,7 @@ module camroller_flexible_follower
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
    use camroller_joint_forces, only : joint_values_t
    use camroller_torque_list, only : of_geometric, of_guide_side, of_pivot, of_residual, of_roller_inertia, of_seal, of_tip
-   use camroller_flexible_measures, only : pivot_force
+   use camroller_flexible_sample, only : pivot_force
    implicit none
    private
 

@@ -16,8 +16,8 @@ module camroller_flexible_solution
    use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, extrapolate, rest_of_train
    use camroller_flexible_moves, only : is_possible
    use camroller_flexible_turn, only : turn_t, start_turns, set_tolerance, integrate_turn
-   use camroller_flexible_measures, only : largest_load, largest_load_angle, measure_count, measure_turn, &
-      & seating_speed, smallest_lift
+   use camroller_flexible_measure_list, only : largest_load, largest_load_angle, measure_count, seating_speed, smallest_lift
+   use camroller_flexible_measures, only : measure_turn
    use camroller_flexible_trend, only : find_trend, trend_t
    implicit none
    private

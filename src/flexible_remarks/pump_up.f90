@@ -4,7 +4,8 @@
 !> opens in the event. Where it has come to its stop, or the oil it has taken in leaks out over many turns, the check valve may stay
 !> shut: it is pumped up all the same where the valve does not close over a plunger above its rest.
 module camroller_pump_up
-   use camroller_flexible_measures, only : event_check_share, event_part, largest_lift, smallest_lift
+   use camroller_flexible_measure_list, only : event_check_share, event_part, smallest_lift
+   use camroller_flexible_measures, only : largest_lift
    use camroller_flexible_solution, only : flexible_solution_t
    use camroller_flexible_train, only : at_plunger
    use camroller_kinds, only : wp

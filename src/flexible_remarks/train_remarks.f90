@@ -4,9 +4,10 @@
 module camroller_train_remarks
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t, kind_domain, raise
-   use camroller_flexible_measures, only : bounce_height, bounces, check_share, closed_load, coil_compression, coil_ratio, &
-      & event_check_share, highest_plunger, largest_lift, largest_load, losses_of_contact, &
-      & lowest_plunger, seating_speed, smallest_lift, smallest_pivot_force, tension_share
+   use camroller_flexible_measure_list, only : bounce_height, bounces, check_share, closed_load, coil_compression, &
+      & coil_ratio, event_check_share, highest_plunger, largest_load, losses_of_contact, lowest_plunger, seating_speed, &
+      & smallest_lift, smallest_pivot_force, tension_share
+   use camroller_flexible_measures, only : largest_lift
    use camroller_flexible_setup, only : seat_sink
    use camroller_flexible_solution, only : flexible_solution_t
    use camroller_flexible_train, only : at_lift, at_plunger, at_pressure

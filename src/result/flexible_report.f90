@@ -13,7 +13,7 @@ module camroller_flexible_report
    use camroller_flexible_follower, only : evaluate_follower
    use camroller_flexible_spikes, only : has_spikes, spike_angles
    use camroller_flexible_parts, only : damper_count, damper_series, dampers_without_adjuster
-   use camroller_flexible_measures, only : largest_load_angle, measures
+   use camroller_flexible_measure_list, only : largest_load_angle, measures
    use camroller_flexible_solution, only : error_share, flexible_solution_t, statistical_turns
    use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle

@@ -10,7 +10,7 @@ module camroller_limit_speeds
    use camroller_case, only : case_t
    use camroller_error, only : error_t, add_context
    use camroller_events, only : cycle_stops, find_stops
-   use camroller_flexible_measures, only : event_pivot_force, event_words, seating_speed, smallest_event_load, &
+   use camroller_flexible_measure_list, only : event_pivot_force, event_words, seating_speed, smallest_event_load, &
       & smallest_lift, smallest_pivot_force
    use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
    use camroller_margins, only : find_margins, margins_t

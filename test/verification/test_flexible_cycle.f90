@@ -11,10 +11,11 @@ module test_flexible_cycle
    use camroller_flexible_train, only : at_lift, at_speed, evaluate_train, flexible_state_t
    use camroller_state, only : state_t
    use camroller_trajectory, only : interpolate_state
-   use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, largest_load_angle, least_lift_error, &
+   use camroller_flexible_measure_list, only : measure_count, largest_load, largest_load_angle, least_lift_error, &
       & losses_of_contact, seating_speed, surge_force, smallest_pivot_force, drive_torque, loss_torque, gallery_torque, &
       & lowest_plunger, largest_chamber_pressure, leak_volume, residual_work, damper_works, damping_torque, lift_at_nose, &
       & speed_at_nose
+   use camroller_flexible_measures, only : measure_turn
    use reference_cases, only : thesis_case, make_model, set_point
    use flexible_cases, only : add_dynamics, stiff_case
    use camroller_train_outlook, only : find_outlook, outlook_t

@@ -7,7 +7,8 @@ module test_flexible_invariance
    use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, rest_of_train
    use camroller_flexible_turn, only : integrate_turn, start_turns, turn_t
    use camroller_flexible_energy, only : stored_energy
-   use camroller_flexible_measures, only : drive_torque, largest_load, measure_count, measure_turn, seating_speed, surge_force
+   use camroller_flexible_measure_list, only : drive_torque, largest_load, measure_count, seating_speed, surge_force
+   use camroller_flexible_measures, only : measure_turn
    use camroller_flexible_train, only : at_finger_rate, at_speed, evaluate_train, first_mode, &
       & flexible_state_t, resolution_t
    use camroller_kinematics, only : rotation_names

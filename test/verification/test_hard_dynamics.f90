@@ -12,7 +12,8 @@ module test_hard_dynamics
    use camroller_flexible_turn, only : integrate_turn, set_sliding_tolerance, start_turns, turn_t
    use camroller_ode_problem, only : counters_t
    use camroller_trajectory, only : trajectory_t
-   use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, loss_torque, residual_work
+   use camroller_flexible_measure_list, only : measure_count, largest_load, loss_torque, residual_work
+   use camroller_flexible_measures, only : measure_turn
    use closeness, only : check_close, check_scaled, has_failed
    use deck_cases, only : get_deck_case
    use driven_trains, only : steady
