@@ -97,8 +97,8 @@ contains
       drops(2) = profile_gap(other, length, modulus, place)
    end function last_drops
 
-   !> Length of the line contact of cam and roller at full lift under the load of the standing train, its largest: all of the
-   !> contact, or the effective length of a roller with a profile.
+   !> Length of the line contact of cam and roller under the load at full lift of the rigid train at rest: all of the contact, or
+   !> the effective length of a roller with a profile.
    function nose_length(width, linkage, lift_law, train, axial) result(length)
       !> Length of the contact [m]
       real(wp), intent(in) :: width

@@ -246,13 +246,14 @@ contains
       end if
    end subroutine check_head
 
-   !> First lines in which two texts differ.
+   !> First lines in which two texts differ, in words: a line has another text, is new or is gone.
    pure function difference(old, new) result(words)
-      !> Two texts
+      !> Two texts of lines, each of which stands once
       character(len=*), intent(in) :: old, new
-      !> Both lines
+      !> What differs
       character(len=:), allocatable :: words
 
+      character(len=:), allocatable :: before, after
       integer :: i, first
 
       first = 1
@@ -260,8 +261,35 @@ contains
          if (old(i:i) /= new(i:i)) exit
          if (old(i:i) == new_line("a")) first = i + 1
       end do
-      words = "'"//line_at(old, first)//"' is now '"//line_at(new, first)//"'"
+      before = line_at(old, first)
+      after = line_at(new, first)
+      if (before == "" .or. holds_line(new, before)) then
+         words = shown(after)//" is new"
+      else if (after == "" .or. holds_line(old, after)) then
+         words = shown(before)//" is gone"
+      else
+         words = shown(before)//" is now "//shown(after)
+      end if
    end function difference
+
+   !> Does a text hold a line?
+   pure function holds_line(text, line) result(verdict)
+      character(len=*), intent(in) :: text, line
+      !> Does it?
+      logical :: verdict
+
+      verdict = index(new_line("a")//text//new_line("a"), new_line("a")//line//new_line("a")) > 0
+   end function holds_line
+
+   !> A line as messages show it: in quotes, unless it has some itself.
+   pure function shown(line) result(words)
+      character(len=*), intent(in) :: line
+      !> The line
+      character(len=:), allocatable :: words
+
+      words = line
+      if (index(line, "'") == 0) words = "'"//line//"'"
+   end function shown
 
    !> The line that begins at a place.
    pure function line_at(text, first) result(line)

@@ -51,6 +51,21 @@ def test_a_partial_file_is_marked_as_such(camroller, deck, reference, tmp_path):
         assert "-1 where it was not computed" in str(file["summary/status"].attrs["long_name"])
 
 
+def test_parts_beside_any_file_are_an_error_without_resume(camroller, deck, reference, tmp_path):
+    """Whatever has the name of the result: nothing, a partial file or a result of the same sweep."""
+    assert run(camroller, "sweep", deck, *STOP, folder=tmp_path).returncode == UNFINISHED
+    for there in ("nothing", "a partial file", "a result"):
+        if there == "a partial file":
+            done(camroller, "merge", deck, "--partial", folder=tmp_path)
+        elif there == "a result":
+            shutil.copy(reference, tmp_path / "deck.h5")
+        before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+        result = run(camroller, "sweep", deck, folder=tmp_path)
+        assert result.returncode == FILE
+        assert "exists from a sweep that was stopped; continue it with --resume, or remove deck.h5.part-*" in result.stderr
+        assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before, there
+
+
 def test_a_sweep_continues_after_a_partial_file_was_made(camroller, deck, reference, tmp_path):
     there = partial_file(camroller, deck, tmp_path)
     result = done(camroller, "sweep", deck, "--resume", folder=tmp_path)
@@ -227,6 +242,30 @@ def test_resume_does_not_replace_a_result_of_another_study(camroller, deck, refe
     assert "'deck.h5' exists and is not a result of this sweep" in result.stderr and words in result.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["deck.h5"]
     assert (tmp_path / "deck.h5").read_bytes() == before
+
+
+WEAR = "&wear cam_rate_mm3_N_m = 1e-8 roller_rate_mm3_N_m = 1e-8 /\n"
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda text: text.partition("&sweep")[0], "sweep.kind = 'grid' is gone\n"),
+    (lambda text: text + WEAR, "'wear.cam_rate_mm3_N_m = 1e-8' is new\n"),
+    (lambda text: text.replace("dowson_higginson", "moes"), "film.law = 'dowson_higginson' is now film.law = 'moes'\n"),
+], ids=["gone", "new", "changed"])
+def test_resume_tells_which_line_of_a_deck_is_new_gone_or_changed(camroller, deck, reference, tmp_path, change, words):
+    """A key that one deck alone has is not set against another key; a line with quotes gets no more of them."""
+    (tmp_path / "deck.nml").write_text(change(deck.read_text()))
+    shutil.copy(reference, tmp_path / "deck.h5")
+    result = run(camroller, "sweep", "deck.nml", "--resume", folder=tmp_path)
+    assert result.returncode == FILE
+    assert "its deck, a table or a value of --set differs: " + words in result.stderr
+
+
+def test_resume_tells_that_a_result_of_one_case_had_no_sweep(camroller, deck, tmp_path):
+    done(camroller, "run", deck, "--no-sweep", "--quiet", folder=tmp_path)
+    result = run(camroller, "sweep", deck, "--resume", folder=tmp_path)
+    assert result.returncode == FILE
+    assert "its deck, a table or a value of --set differs: sweep.kind = 'grid' is new\n" in result.stderr
 
 
 @pytest.mark.parametrize("content", [b"", b"my notes\n", b"hdf5"])

@@ -53,3 +53,18 @@ def test_deck_keys_exist():
     assert len(named) > 30
     groups = {part.partition("\n")[0]: set(re.findall(r"^\| `(\w+)` \|", part, re.MULTILINE)) for part in DECK.split("\n## &")[1:]}
     assert [f"{group}.{key}" for group, key in named if key not in groups.get(group, ())] == []
+
+
+def test_cited_works_are_in_the_references():
+    """`Author (year)`, or `(Author year)`; all authors that the text names are at the beginning of one entry, before its year."""
+    text = re.sub(r"\s+", " ", PAGE[:PAGE.index("\n## 24. ")])
+    entries = re.sub(r"\n +", " ", PAGE[PAGE.index("\n## 24. "):]).split("\n- ")[1:]
+    name = r"(?:de |van )?[A-Z][\w-]*[a-z]"
+    authors = rf"({name}(?:(?:, | and ){name})*)(?: and others)?"
+    cited = set(re.findall(rf"{authors} \((\d{{4}})\)", text))
+    for inside in re.findall(r"\(([^()]*)\)", text):
+        cited.update(re.findall(rf"{authors} (1[89]\d\d|20\d\d)\b", inside))
+    assert len(cited) > 50
+    heads = {(entry.partition(")")[0][-4:], entry.partition("(")[0]) for entry in entries}
+    assert sorted((names, year) for names, year in cited if not any(
+        year == other and all(part in head for part in re.findall(r"[A-Z][\w-]+", names)) for other, head in heads)) == []
