@@ -260,7 +260,7 @@ contains
                & "' is running; wait for its end, or name another file by -o")
             return
          end do
-         call raise(error, kind_file, "'"//paths(1)%text//"' exists from a sweep that was stopped; continue it with "// &
+         call raise(error, kind_file, "'"//paths(1)%text//"' exists from an unfinished sweep; continue it with "// &
             & "--resume, or remove "//own//"*")
          return
       end if

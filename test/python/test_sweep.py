@@ -610,7 +610,7 @@ def test_two_processes_do_not_write_one_part(camroller, deck, tmp_path):
         assert result.returncode == FILE
         assert "another process is writing 'deck.h5.part-rank-0'" in result.stderr
     assert "a sweep of 'deck.h5' is running" in third.stderr and "stopped" not in third.stderr
-    assert "exists from a sweep that was stopped" in run(camroller, "sweep", big, folder=tmp_path).stderr
+    assert "exists from an unfinished sweep" in run(camroller, "sweep", big, folder=tmp_path).stderr
 
 
 def test_a_folder_that_is_not_there_is_named(camroller, deck, tmp_path):

@@ -62,7 +62,7 @@ def test_parts_beside_any_file_are_an_error_without_resume(camroller, deck, refe
         before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
         result = run(camroller, "sweep", deck, folder=tmp_path)
         assert result.returncode == FILE
-        assert "exists from a sweep that was stopped; continue it with --resume, or remove deck.h5.part-*" in result.stderr
+        assert "exists from an unfinished sweep; continue it with --resume, or remove deck.h5.part-*" in result.stderr
         assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before, there
 
 
