@@ -3,7 +3,7 @@ module test_flexible_periods
    use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
    use camroller_kinds, only : wp, pi
    use camroller_case, only : case_t, numerics_t
-   use camroller_error, only : error_t, kind_domain
+   use camroller_error, only : error_t, kind_convergence, kind_domain
    use camroller_model, only : model_t
    use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, &
       & is_alternating, rest_of_train
@@ -16,7 +16,7 @@ module test_flexible_periods
    use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
    use camroller_turn_scatter, only : scatter_error
-   use closeness, only : check_scaled
+   use closeness, only : check_scaled, expect_error, expect_success
    use deck_cases, only : get_deck_case
    use flexible_cases, only : add_dynamics
    use reference_cases, only : make_model, set_point, thesis_case
@@ -49,6 +49,7 @@ contains
          new_unittest("turns alternate where a disturbance comes back with the other sign, not where little is left", &
             & test_alternating), &
          new_unittest("a train that takes more steps than it may is given up with words for its fastest part", test_work), &
+         new_unittest("a train whose roller is held where nothing is entrained is given up with words for that", test_held), &
          new_unittest("the search for a period ends after as many steps as it may take, without an error", test_search), &
          new_unittest("coarse turns first lead to the same periodic state in fewer steps", test_coarse), &
          new_unittest("a train without a period takes 20 coarse turns and the 40 with its tolerance", test_aperiodic), &
@@ -164,6 +165,29 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_unstable
+
+   !> The roller slows down under load at 170 deg, and steps of 1e-9 rad follow the crest of its traction.
+   subroutine test_held(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(turn_t) :: turn
+      type(flexible_cycle_t) :: cycle
+      type(error_t), allocatable :: failure
+      ! State [state]
+      real(wp), allocatable :: state(:)
+
+      call get_deck_case("test/data/flexible_trains/held_roller/deck.nml", the_case, failure)
+      call expect_success(error, failure)
+      if (.not. allocated(error)) call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call start_turns(turn, model, "radau5", 4.0e-6_wp, failure)
+      ! A turn takes 700 at ten times the tolerance and 2500 at a tenth of it
+      turn%options%max_steps = 5000
+      if (.not. allocated(failure)) call rest_of_train(model, state, failure)
+      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, closure, 5, failure)
+      call expect_error(error, failure, kind_convergence, "where its surface runs against that of the cam as fast")
+   end subroutine test_held
 
    !> A turn takes two thousand steps.
    subroutine test_work(error)
