@@ -192,7 +192,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(options_t) :: options
-      character(len=:), allocatable :: fastest
+      character(len=:), allocatable :: cause
       ! Steps before and after
       integer :: before, taken
 
@@ -204,17 +204,43 @@ contains
       taken = counters%accepted + counters%rejected
       if (taken > options%max_steps) then
          deallocate (error)
-         call find_fastest(turn%problem%model, fastest)
+         call find_cause(turn, trajectory, cause)
          if (taken > turn%most_work) then
-            call raise(error, kind_domain, "its turns take more than "//integer_text(turn%most_work)//" steps; "//fastest)
+            call raise(error, kind_domain, "its turns take more than "//integer_text(turn%most_work)//" steps; "//cause)
          else
-            call raise(error, kind_convergence, "the number of steps is used up, "//integer_text(most_steps)//" in a turn; "// &
-               & fastest)
+            call raise(error, kind_convergence, "the number of steps is used up, "//integer_text(turn%options%max_steps)// &
+               & " in a turn; "//cause)
          end if
       else
          call explain_end(turn, trajectory, error)
       end if
    end subroutine integrate_turn
+
+   !> What takes the steps of a train, in words: a roller that friction holds where nothing is entrained, or the part that changes
+   !> fastest. Films by formula go to nothing with the entrainment: within less of it than a step resolves the traction rises to a
+   !> crest and falls again, and a roller that is held there keeps to it.
+   subroutine find_cause(turn, trajectory, text)
+      !> What integrates
+      type(turn_t), intent(in) :: turn
+      !> The turn up to its end
+      type(trajectory_t), intent(in) :: trajectory
+      !> The words
+      character(len=:), allocatable, intent(out) :: text
+
+      type(flexible_state_t) :: now
+      integer :: status
+
+      call find_fastest(turn%problem%model, text)
+      if (trajectory%count == 0) return
+      associate (angle => trajectory%time(trajectory%count), problem => turn%problem)
+         call evaluate_train(problem%model, angle, trajectory%state(:, trajectory%count), problem%resolution, now, status)
+         if (status /= 0 .or. .not. now%contact%is_touching) return
+         if (abs(now%contact%entrainment_speed) > problem%resolution%sliding_speed) return
+         text = "friction holds the roller at "//cam_angle_text(angle, 3)//", where its surface runs against that of the cam "// &
+            & "as fast: nothing is entrained, and traction changes there within less than a step resolves; try another "// &
+            & "numerics.accuracy or numerics.method"
+      end associate
+   end subroutine find_cause
 
    !> The part of a train that changes fastest, in words.
    subroutine find_fastest(model, text)

@@ -110,7 +110,8 @@ contains
       statistics%largest_sliding = means%largest_sliding
       statistics%error = cycle%flexible%error
       statistics%error_angle = cycle%flexible%error_angle
-      call compare_turns(case, model, cycle%flexible, series, follower_count(case) + 1, mean_errors, statistics%missing_oil, error)
+      call compare_turns(case, model, cycle%flexible, series, follower_count(case) + 1, means, mean_errors, &
+         & statistics%missing_oil, error)
       if (allocated(error)) return
       worst = maxloc(mean_errors, 1)
       statistics%mean_error = mean_errors(worst)
@@ -211,7 +212,10 @@ contains
          statistics%mean_error = bearing_error
          statistics%worst_mean = worst
       end if
-      result%worst_mean = statistics(maxloc(statistics%mean_error, 1))%worst_mean
+      lobe = maxloc(statistics%mean_error, 1)
+      result%worst_mean = trim(lobe_prefix(lobe))//statistics(lobe)%worst_mean
+      ! Torques have no names of other lobe shapes
+      if (find_quantity(result%series, trim(result%worst_mean)) == 0) result%worst_mean = statistics(lobe)%worst_mean
       call find_extremes(solved, statistics, torque_rows, result%series, extremes, error)
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme

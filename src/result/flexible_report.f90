@@ -30,6 +30,7 @@ module camroller_flexible_report
       & torque_series
    use camroller_train_outlook, only : find_outlook, outlook_t
    use camroller_trajectory, only : interpolate_state, trajectory_t
+   use camroller_turn_scatter, only : scatter_error
    implicit none
    private
 
@@ -52,6 +53,8 @@ module camroller_flexible_report
       type(samples_t) :: torque_rows
       !> Of the magnitude of each series [unit of the series]
       real(wp), allocatable :: size(:)
+      !> Error of the mean of each series by the scatter of turns without a period, else zero [unit of the series]
+      real(wp), allocatable :: scatter(:)
       !> Largest magnitude of the sliding speed evaluated [m/s]
       real(wp) :: largest_sliding = 0.0_wp
       !> Oil that enters the adjuster's chamber and that leaves it, at ambient density [m^3/s]
@@ -84,17 +87,20 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Series [unit of the series]
-      real(wp) :: values(size(series))
+      ! Series, or their means so far; their means of each turn, shape (series, turn) [unit of the series]
+      real(wp) :: values(size(series)), of_turns(size(series), size(solution%turns))
       integer :: turn
 
       call start_means(means, size(series), first_torque)
       means%is_film = is_film(series)
       do turn = 1, size(solution%turns)
+         values = means%mean
          call add_turn(case, model, solution%turns(turn), solution%cycle%resolution, 1.0_wp/size(solution%turns), &
             & turn == size(solution%turns), .true., state, means, error)
          if (allocated(error)) return
+         of_turns(:, turn) = (means%mean - values)*size(solution%turns)
       end do
+      if (solution%cycle%period == 0) means%scatter = scatter_error(of_turns)
       call add_held(means)
       call series_values(case, model, state, means%torques, values)
       means%mean(first_torque:) = values(first_torque:)
@@ -106,7 +112,7 @@ contains
       !> Number of series of follower and camshaft, and the first of them that is a torque
       integer, intent(in) :: series_count, first_torque
 
-      allocate (means%mean(series_count), means%size(series_count), source=0.0_wp)
+      allocate (means%mean(series_count), means%size(series_count), means%scatter(series_count), source=0.0_wp)
       allocate (means%held(series_count, 2*series_count + 1), means%held_angle(2*series_count + 1), source=0.0_wp)
       allocate (means%held_value(2*series_count + 1), source=huge(1.0_wp))
       call start_samples(means%rows, first_torque - 1)
@@ -159,8 +165,8 @@ contains
    !>
    !> In a period the roller gains no energy: what it has gained or lost of it, where a disturbance hardly decays in a turn, counts
    !> as error of the drive torque, too. As much oil enters an adjuster as leaks. Both turns may lack the same of it: where little
-   !> leaks, errors of the plunger's travel make up for it.
-   subroutine compare_turns(case, model, solution, series, first_torque, mean_errors, missing_oil, error)
+   !> leaks, errors of the plunger's travel make up for it. Without a period turns are some of many, and their scatter counts.
+   subroutine compare_turns(case, model, solution, series, first_torque, whole, mean_errors, missing_oil, error)
       !> The case
       type(case_t), intent(in) :: case
       !> The model of the lobe
@@ -170,6 +176,8 @@ contains
       !> Series of follower and camshaft, and the first of them that is a torque
       type(quantity_t), intent(in) :: series(:)
       integer, intent(in) :: first_torque
+      !> Means over all turns; out: their sizes are what errors are relative to
+      type(flexible_means_t), intent(inout) :: whole
       !> Errors of the means [-]
       real(wp), intent(out) :: mean_errors(:)
       !> Difference of the oil that enters an adjuster and the oil that leaks, over the larger; zero where turns are no period [-]
@@ -179,9 +187,8 @@ contains
 
       type(flexible_means_t) :: means, finer
       type(state_t) :: state
-      ! Mean torque of all losses, and that of the roller's inertia [N m]
-      real(wp) :: losses, gained
-      integer :: residual, place, first_power, last_power, row, paid(2)
+      real(wp) :: gained ! Mean torque of the roller's inertia [N m]
+      integer :: residual, place
 
       missing_oil = 0.0_wp
       call start_means(means, size(series), first_torque)
@@ -190,19 +197,11 @@ contains
       call start_means(finer, size(series), first_torque)
       call add_turn(case, model, solution%finer, solution%finer_resolution, 1.0_wp, .true., .false., state, finer, error)
       if (allocated(error)) return
-      losses = sum(means%torques, mask=is_loss)
-      first_power = find_quantity(series, trim(damper_series(1)))
-      last_power = first_power + merge(damper_count, dampers_without_adjuster, allocated(model%flexible%adjuster)) - 1
-      associate (torques => means%size(first_torque:), powers => means%size(first_power:last_power))
-         torques = losses
-         powers = max(powers, model%speed*losses)
-      end associate
-      if (allocated(model%gas)) then
-         paid = [(find_quantity(series, trim(torque_series(row))), row=of_geometric, of_gas_damping, of_gas_damping - of_geometric)]
-         means%size(paid) = losses + means%torques(of_gas_damping)
-      end if
+      call set_scales(model, series, first_torque, means)
+      call set_scales(model, series, first_torque, whole)
       mean_errors = 0.0_wp
       where (means%size > 0.0_wp) mean_errors = error_share*abs(means%mean - finer%mean)/max(means%size, series%least)
+      where (whole%scatter > 0.0_wp) mean_errors = max(mean_errors, whole%scatter/max(whole%size, series%least))
       if (allocated(model%flexible%adjuster) .and. solution%cycle%period == 1) then
          missing_oil = abs(means%oil(1) - means%oil(2))/max(maxval(abs(means%oil)), tiny(1.0_wp))
          place = find_quantity(series, "check_valve_flow")
@@ -215,8 +214,8 @@ contains
       end if
       residual = find_quantity(series, trim(torque_series(of_residual)))
       if (residual > 0) mean_errors(residual) = 0.0_wp
-      if (means%lost_share > 0.0_wp) mean_errors(find_quantity(series, "film_thickness_min"):find_quantity(series, "film_ratio")) &
-         & = 0.0_wp
+      if (max(means%lost_share, whole%lost_share) > 0.0_wp) mean_errors(find_quantity(series, "film_thickness_min") &
+         & :find_quantity(series, "film_ratio")) = 0.0_wp
 
    contains
 
@@ -232,6 +231,31 @@ contains
       end subroutine count_gain
 
    end subroutine compare_turns
+
+   !> Make the sizes of series what errors of their means are relative to.
+   pure subroutine set_scales(model, series, first_torque, means)
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> Series of follower and camshaft, and the first of them that is a torque
+      type(quantity_t), intent(in) :: series(:)
+      integer, intent(in) :: first_torque
+      !> In: mean magnitudes; out: scales
+      type(flexible_means_t), intent(inout) :: means
+
+      real(wp) :: losses ! Mean torque of all losses [N m]
+      integer :: first_power, last_power, row, paid(2)
+
+      losses = sum(means%torques, mask=is_loss)
+      first_power = find_quantity(series, trim(damper_series(1)))
+      last_power = first_power + merge(damper_count, dampers_without_adjuster, allocated(model%flexible%adjuster)) - 1
+      associate (torques => means%size(first_torque:), powers => means%size(first_power:last_power))
+         torques = losses
+         powers = max(powers, model%speed*losses)
+      end associate
+      if (.not. allocated(model%gas)) return
+      paid = [(find_quantity(series, trim(torque_series(row))), row=of_geometric, of_gas_damping, of_gas_damping - of_geometric)]
+      means%size(paid) = losses + means%torques(of_gas_damping)
+   end subroutine set_scales
 
    !> Take a turn into the means.
    subroutine add_turn(case, model, path, resolution, share, is_last, has_extremes, state, means, error)

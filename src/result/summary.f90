@@ -77,7 +77,7 @@ contains
          & "numerics", file_angle(statistics(worst)%error_angle))
       call add(list, "estimated_error_of_means", "1", "estimate of the largest error of a mean relative "// &
          & "to the mean magnitude of its quantity, of geometric and drive torque relative to the mean friction torque; "// &
-         & "without films where contact is lost", "numerics", &
+         & "without films where contact is lost; without a period also what other turns would change", "numerics", &
          & maxval(statistics%mean_error))
       call add(list, "estimated_error_of_extremes", "1", "estimate of the largest error of a smallest or "// &
          & "largest value, of the smallest contact load of the event too, relative to the range of its series, of a torque "// &

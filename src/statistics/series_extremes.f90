@@ -400,7 +400,7 @@ contains
          end do
       end associate
       ! Where oil is missing, so is an opening of the check valve, or a part of one
-      i = find_quantity(series, "check_valve_flow")
+      i = findloc([(index(series(i)%name, "check_valve_flow") > 0, i=1, size(series))], .true., 1)
       if (i > 0) relative(i) = max(relative(i), statistics%missing_oil)
       i = maxloc(relative, 1)
       statistics%extreme_error = relative(i)

@@ -3,7 +3,7 @@ module test_flexible_periods
    use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
    use camroller_kinds, only : wp, pi
    use camroller_case, only : case_t, numerics_t
-   use camroller_error, only : error_t, kind_domain
+   use camroller_error, only : error_t, kind_convergence, kind_domain
    use camroller_model, only : model_t
    use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, &
       & is_alternating, rest_of_train
@@ -12,10 +12,11 @@ module test_flexible_periods
    use camroller_flexible_turn, only : start_turns, turn_t
    use camroller_flexible_train, only : at_finger, at_lift, at_plunger, at_sliding
    use camroller_number_text, only : integer_text, number_text
-   use camroller_remarks, only : missed_accuracy, remark_lines
-   use camroller_result, only : result_t
+   use camroller_remarks, only : missed_accuracy, missed_means, remark_lines
+   use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
-   use closeness, only : check_scaled
+   use camroller_turn_scatter, only : scatter_error
+   use closeness, only : check_scaled, expect_error, expect_success
    use deck_cases, only : get_deck_case
    use flexible_cases, only : add_dynamics
    use reference_cases, only : make_model, set_point, thesis_case
@@ -48,10 +49,13 @@ contains
          new_unittest("turns alternate where a disturbance comes back with the other sign, not where little is left", &
             & test_alternating), &
          new_unittest("a train that takes more steps than it may is given up with words for its fastest part", test_work), &
+         new_unittest("a train whose roller is held where nothing is entrained is given up with words for that", test_held), &
          new_unittest("the search for a period ends after as many steps as it may take, without an error", test_search), &
          new_unittest("coarse turns first lead to the same periodic state in fewer steps", test_coarse), &
          new_unittest("a train without a period takes 20 coarse turns and the 40 with its tolerance", test_aperiodic), &
          new_unittest("a train that rattles without a period is not integrated again with a smaller tolerance", test_scatter), &
+         new_unittest("means of turns without a period err by what the turns scatter at least", test_scatter_of_means), &
+         new_unittest("what turns swing by within a part of them is no error of their mean", test_scatter_error), &
          new_unittest("turns that drift or approach a period are told from those that scatter", test_trend) &
          ]
    end subroutine collect_flexible_periods
@@ -161,6 +165,29 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_unstable
+
+   !> The roller slows down under load at 170 deg, and steps of 1e-9 rad follow the crest of its traction.
+   subroutine test_held(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(turn_t) :: turn
+      type(flexible_cycle_t) :: cycle
+      type(error_t), allocatable :: failure
+      ! State [state]
+      real(wp), allocatable :: state(:)
+
+      call get_deck_case("test/data/flexible_trains/held_roller/deck.nml", the_case, failure)
+      call expect_success(error, failure)
+      if (.not. allocated(error)) call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call start_turns(turn, model, "radau5", 4.0e-6_wp, failure)
+      ! A turn takes 700 at ten times the tolerance and 2500 at a tenth of it
+      turn%options%max_steps = 5000
+      if (.not. allocated(failure)) call rest_of_train(model, state, failure)
+      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, closure, 5, failure)
+      call expect_error(error, failure, kind_convergence, "where its surface runs against that of the cam as fast")
+   end subroutine test_held
 
    !> A turn takes two thousand steps.
    subroutine test_work(error)
@@ -299,6 +326,52 @@ contains
       end do
       call test_failed(error, "all errors are below the accuracy")
    end subroutine test_scatter
+
+   !> The torque of all losses turn by turn, whose mean is that of a series. The difference of two turns from the same start tells
+   !> less the smaller the tolerance: at 1e-3 means by two methods were up to 100 times as far apart. Speeds as above.
+   subroutine test_scatter_of_means(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: accuracy = 0.01_wp, lash = 1.0e-4_wp, speeds(*) = [2950.0_wp, 3000.0_wp, 2995.0_wp, 3005.0_wp]
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Means over fifths of the turns, what 95 of 100 means keep to by Student's distribution with 4 degrees of freedom [N m]
+      real(wp) :: fifths(5), scatter
+      integer :: i
+
+      do i = 1, size(speeds)
+         call run_rattling(lash, speeds(i), accuracy, result, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         if (scalar_of(result, "period_cycles") < 0.5_wp .and. nint(scalar_of(result, "summary_cycles")) == 40) exit
+      end do
+      call check(error, i <= size(speeds), "all speeds have a period")
+      if (allocated(error)) return
+      associate (torques => result%history_values(:, find_quantity(result%history, "dynamic_loss_torque")))
+         fifths = sum(reshape(torques, [8, 5]), 1)/8
+      end associate
+      associate (mean => scalar_of(result, "mean_torque_friction"))
+         scatter = 2.776_wp*sqrt(sum((fifths - mean)**2)/(5*4))
+         call check(error, scatter <= 1.001_wp*scalar_of(result, "estimated_error_of_means")*mean, "scatter beyond the estimate")
+      end associate
+      if (allocated(error)) return
+      call check(error, any(result%remarks%kind == missed_means), remark_lines(result%remarks))
+   end subroutine test_scatter_of_means
+
+   !> Parts of eight turns whose means are 1 to 5 deviate by the root of 2.5 from their mean. To either side comes what cancels in
+   !> each part. Parts of 23 turns are uneven, which a constant does not show.
+   subroutine test_scatter_error(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: means(2, 40) ! [-]
+      integer :: i
+
+      means(1, :) = [(1 + (i - 1)/8 + 7*(-1)**i, i=1, 40)]
+      means(2, :) = [(sin(0.25_wp*pi*i), i=1, 40)]
+      call check_scaled(error, maxval(abs(scatter_error(means) - [2.776445_wp*sqrt(2.5_wp/5), 0.0_wp])), 0.0_wp, 1.0_wp, &
+         & 1.0e-12_wp, "parts of 40 turns")
+      if (allocated(error)) return
+      means = 1.0_wp
+      call check_scaled(error, maxval(scatter_error(means(:, :23))), 0.0_wp, 1.0_wp, 1.0e-12_wp, "a constant")
+   end subroutine test_scatter_error
 
    !> Run the train of `decks/dynamics.nml` with lash, without surge of its spring.
    subroutine run_rattling(lash, speed, accuracy, result, failure)

@@ -34,6 +34,7 @@ contains
       testsuite = [ &
          new_unittest("a second lobe shape with the lift of the first has the series of the first", test_same_lobes), &
          new_unittest("series belong to a lobe shape, whatever its number", test_swapped_lobes), &
+         new_unittest("the mean with the largest error is named with its lobe shape", test_worst_mean), &
          new_unittest("every series has a scope", test_scopes), &
          new_unittest("names of series of many bearings fit where a result names its worst mean", test_long_names), &
          new_unittest("lobe 1 has its series if the first cam has lobe 2", test_first_cam), &
@@ -109,6 +110,24 @@ contains
       ! the camshaft is the same one, so its torques are, too
       if (.not. allocated(error)) call compare_scalar(error, one, "max_torque_bearings", other, "max_torque_bearings")
    end subroutine test_swapped_lobes
+
+   !> Without the inertia of the roller means err by far more than those of bearings: by most where one of both lobes has them.
+   subroutine test_worst_mean(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: one, other
+
+      case = two_lobes(thesis_lift(), low_lift(), [1, 2])
+      case%numerics%method = "quasi_static"
+      call run(case, one, error)
+      if (allocated(error)) return
+      case = two_lobes(low_lift(), thesis_lift(), [2, 1])
+      case%numerics%method = "quasi_static"
+      call run(case, other, error)
+      if (allocated(error)) return
+      call check(error, one%worst_mean == "lobe_2_"//other%worst_mean .or. other%worst_mean == "lobe_2_"//one%worst_mean, &
+         & trim(one%worst_mean)//", "//trim(other%worst_mean))
+   end subroutine test_worst_mean
 
    subroutine test_scopes(error)
       type(error_type), allocatable, intent(out) :: error
