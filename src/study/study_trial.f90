@@ -11,6 +11,7 @@ module camroller_study_trial
    use camroller_ehl_summary, only : mean_over_cycle
    use camroller_model, only : model_t
    use camroller_case_result, only : output_angles
+   use camroller_catalogue, only : lobe_prefix
    use camroller_result, only : result_t, find_quantity
    use camroller_run, only : run_case
    use camroller_sorting, only : median
@@ -36,7 +37,7 @@ module camroller_study_trial
       real(wp) :: mean_friction = 0.0_wp
       !> Smallest film at the output angles [m]
       real(wp) :: smallest_film = 0.0_wp
-      !> Cycles of a flexible train's period; 0 where it has none, 1 for a rigid train
+      !> Cycles of the longest period of flexible trains; 0 where one has none, 1 for rigid trains
       integer :: period = 1
       !> Part of its turns that the roller loses per cam revolution [-]
       real(wp) :: revolution_slip = 0.0_wp
@@ -88,7 +89,7 @@ contains
       trial%estimated_error = scalar("estimated_error")
       trial%evaluations = scalar("counter_evaluations")
       trial%steps = scalar("counter_steps")
-      if (find_quantity(result%summary, "period_cycles") > 0) trial%period = nint(scalar("period_cycles"))
+      trial%period = longest_period(result)
 
    contains
 
@@ -102,6 +103,25 @@ contains
          value = result%summary_values(find_quantity(result%summary, name))
       end function scalar
    end subroutine run_trial
+
+   !> Cycles of the longest period of a result's followers; 0 where one has none.
+   pure function longest_period(result) result(period)
+      type(result_t), intent(in) :: result
+      !> The cycles
+      integer :: period
+
+      integer :: lobe, place, cycles
+
+      period = 1
+      lobe = 1
+      do
+         place = find_quantity(result%summary, trim(lobe_prefix(lobe))//"period_cycles")
+         if (place == 0) return
+         cycles = nint(result%summary_values(place))
+         period = merge(0, max(period, cycles), min(period, cycles) == 0)
+         lobe = lobe + 1
+      end do
+   end function longest_period
 
    !> Solve the contact of the first follower over the cycle, with its transient film, and keep the same.
    subroutine solve_trial(case, nodes, step_error, repeats, trial)

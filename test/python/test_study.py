@@ -46,6 +46,20 @@ def test_turns_of_a_longer_period_are_not_compared(camroller, tmp_path):
     assert re.search("no reference: the motion of the train repeats after [24] cycles only", result.stderr)
 
 
+@pytest.mark.once
+def test_turns_of_a_longer_period_of_a_second_lobe_are_not_compared(camroller, tmp_path):
+    """The first lobe is so low that its train repeats itself with every turn; the second is that of the deck."""
+    (tmp_path / "deck.nml").write_text(f"""include = '{ROOT}/decks/lash_adjuster.nml', without = 'sweep'
+&lift max_lift_mm = 4 /
+&second_lift law = 'power' max_lift_mm = 9.5 opening_half_angle_deg = 70 exponents = 4 /
+&cam_bearings law = 'short_ocvirk' diameter_mm = 25 width_mm = 18 radial_clearance_um = 30
+   bearing_positions_mm = 0, 50 cam_positions_mm = 16, 34 cam_lobes = 1, 2 /
+""")
+    result = study(camroller, "deck.nml", *QUICK, "--set", "operating_point.speed_rpm=1840", folder=tmp_path)
+    assert result.returncode != 0
+    assert re.search("no reference: the motion of the train repeats after [24] cycles only", result.stderr), result.stderr
+
+
 def test_a_study_takes_all_effects(camroller, tmp_path):
     """A choice of effects would compare a law with itself."""
     text = THESIS[:THESIS.index("&sweep")] + "&effects select = 'needed' negligible = 0.1 /\n"
