@@ -231,12 +231,13 @@ contains
       type(flexible_state_t) :: now
       type(position_t) :: position
       type(sample_t) :: between
-      ! Values, their sign turned for a smallest value, that of the parabola [unit of the measure], its place [rad]
-      real(wp) :: three(3), sense, best, place
+      ! Angles [rad], values with their sign turned for a smallest one, that of the parabola [unit of the measure], its place [rad]
+      real(wp) :: angles(3), three(3), sense, best, place
       real(wp) :: state(size(trajectory%state, 1)) ! at the vertex [state]
       integer :: i, hint
 
-      if (samples(1)%angle >= samples(2)%angle .or. samples(2)%angle >= samples(3)%angle) return
+      angles = samples%angle
+      if (angles(1) >= angles(2) .or. angles(2) >= angles(3)) return
       do i = 1, size(extremes)
          associate (measure => extremes(i))
             if (measure > size(values)) return
@@ -244,7 +245,7 @@ contains
             three = sense*samples%extremes(measure)
             if (three(2) < maxval(three) .or. .not. three(2) > minval(three)) cycle
             if (.not. all(does_count(samples, measure))) cycle
-            call find_vertex(samples%angle, three, place, best)
+            call find_vertex(angles, three, place, best)
             if (.not. best > sense*values(measure)) cycle
          end associate
          hint = 1

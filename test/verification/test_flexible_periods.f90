@@ -364,7 +364,7 @@ contains
       real(wp) :: means(2, 40) ! [-]
       integer :: i
 
-      means(1, :) = [(1 + (i - 1)/8 + 7*(-1)**i, i=1, 40)]
+      means(1, :) = [(real(1 + shiftr(i - 1, 3) + 7*(-1)**i, wp), i=1, 40)]
       means(2, :) = [(sin(0.25_wp*pi*i), i=1, 40)]
       call check_scaled(error, maxval(abs(scatter_error(means) - [2.776445_wp*sqrt(2.5_wp/5), 0.0_wp])), 0.0_wp, 1.0_wp, &
          & 1.0e-12_wp, "parts of 40 turns")
