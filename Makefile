@@ -26,7 +26,6 @@ export OPTIMISED_FLAGS := $(COMMON_FLAGS) -O3
 # and other targets compile without. gcc-ar writes the index of such objects.
 export RELEASE_FLAGS := $(OPTIMISED_FLAGS) -flto=auto -ffat-lto-objects
 export FPM_AR := gcc-ar
-export FPM_FC := $(CURDIR)/tools/gfortran
 export SANITIZE_FLAGS := $(COMMON_FLAGS) -O1 -fno-omit-frame-pointer -fsanitize=address,undefined
 
 help: ## list what can be made
