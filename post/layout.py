@@ -277,9 +277,8 @@ class Layout:
 
     def turn_words(self):
         """Of which turns curves and means are, where trains do not repeat every turn."""
-        entries = [entry for entry in self.entries if self._has_result(entry) and "period_cycles" in self.results[entry.file].summary]
-        periods = [(self.results[entry.file].summary["period_cycles"].values[entry.case], self.results[entry.file].turn_count(entry.case))
-                   for entry in entries]
+        cases = [(self.results[entry.file], entry.case) for entry in self.entries if self._has_result(entry)]
+        periods = [(period, result.turn_count(case)) for result, case in cases if (period := result.period(case)) is not None]
         without, several = ([turns for turns in periods if is_it(turns[0])] for is_it in (lambda n: n == 0, lambda n: n > 1))
         words = []
         for found, what, curves in ((without, "no period", "the last"), (several, "a period of several turns", "one")):

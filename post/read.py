@@ -116,6 +116,11 @@ class Result:
         listed = [np.isfinite(measure.values[case]) for measure in self.turns.values()]
         return int(np.max(np.nonzero(np.any(listed, axis=0))[0], initial=-1)) + 1 if listed else 0
 
+    def period(self, case):
+        """Turns after which the flexible trains of all lobe shapes repeat themselves; 0 where one never does, None for rigid trains."""
+        periods = [int(scalar.values[case]) for name, scalar in self.summary.items() if name.endswith("period_cycles")]
+        return (0 if 0 in periods else max(periods)) if periods else None
+
     def failed_cases(self):
         """Cases without a result, each with the reason that the file gives."""
         status = self.summary.get("status")

@@ -171,6 +171,9 @@ def test_curves_of_trains_without_a_period_are_of_one_turn_and_the_page_says_so(
     with h5py.File(path, "a") as file:
         file["summary/period_cycles"][...] = [1.0, 1.0]
     assert not Layout([read_result(path)]).turn_words()
+    with h5py.File(path, "a") as file:
+        file["summary/lobe_2_period_cycles"] = [1.0, 0.0]
+    assert Layout([read_result(path)]).turn_words() == ["no period in 1 of 2 cases: curves are the last of 2 turns, means of all"]
 
 
 def test_turns_have_one_axis_in_all_panels(tmp_path):
