@@ -236,9 +236,9 @@ contains
          call evaluate_train(problem%model, angle, trajectory%state(:, trajectory%count), problem%resolution, now, status)
          if (status /= 0 .or. .not. now%contact%is_touching) return
          if (abs(now%contact%entrainment_speed) > problem%resolution%sliding_speed) return
-         text = "friction holds the roller at "//cam_angle_text(angle, 3)//", where its surface runs against that of the cam "// &
-            & "as fast: nothing is entrained, and traction changes there within less than a step resolves; try another "// &
-            & "numerics.accuracy or numerics.method"
+         text = "friction holds the roller at "//cam_angle_text(angle, 3)//", where the surfaces of cam and roller move in "// &
+            & "opposite directions at one speed: no oil is entrained, and traction changes within less than a step resolves; "// &
+            & "try another numerics.accuracy or numerics.method"
       end associate
    end subroutine find_cause
 

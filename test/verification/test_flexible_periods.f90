@@ -186,7 +186,7 @@ contains
       turn%options%max_steps = 5000
       if (.not. allocated(failure)) call rest_of_train(model, state, failure)
       if (.not. allocated(failure)) call find_periodic(cycle, turn, state, closure, 5, failure)
-      call expect_error(error, failure, kind_convergence, "where its surface runs against that of the cam as fast")
+      call expect_error(error, failure, kind_convergence, "surfaces of cam and roller move in opposite directions at one speed")
    end subroutine test_held
 
    !> A turn takes two thousand steps.
