@@ -228,13 +228,9 @@ contains
       !> Convergence error where the state cannot be evaluated
       type(error_t), allocatable, intent(out) :: error
 
-      type(flexible_state_t) :: now
-      type(position_t) :: position
-      type(sample_t) :: between
       ! Angles [rad], values with their sign turned for a smallest one, that of the parabola [unit of the measure], its place [rad]
       real(wp) :: angles(3), three(3), sense, best, place
-      real(wp) :: state(size(trajectory%state, 1)) ! at the vertex [state]
-      integer :: i, hint
+      integer :: i
 
       angles = samples%angle
       if (angles(1) >= angles(2) .or. angles(2) >= angles(3)) return
@@ -248,12 +244,8 @@ contains
             call find_vertex(angles, three, place, best)
             if (.not. best > sense*values(measure)) cycle
          end associate
-         hint = 1
-         call interpolate_state(trajectory, place, hint, state)
-         call look(model, place, state, resolution, top, now, position, between, error)
+         call take_state(model, trajectory, resolution, top, place, all(samples%has_met), values, error)
          if (allocated(error)) return
-         between%has_met = all(samples%has_met)
-         call take_extremes(between, values)
       end do
    end subroutine add_vertices
 
@@ -275,13 +267,10 @@ contains
 
       ! Halvings of the way between the points
       integer, parameter :: halvings = 40
-      type(flexible_state_t) :: now
       type(position_t) :: position
-      type(sample_t) :: edge
       ! Angles on the closed side and on the other one, between them [rad]
       real(wp) :: closed, open, middle
-      real(wp) :: state(size(trajectory%state, 1)) ! at the edge [state]
-      integer :: i, hint, status
+      integer :: i, status
 
       if (samples(1)%angle >= samples(2)%angle .or. (samples(1)%is_closed .eqv. samples(2)%is_closed)) return
       closed = merge(samples(1)%angle, samples(2)%angle, samples(1)%is_closed)
@@ -296,11 +285,37 @@ contains
             open = middle
          end if
       end do
-      hint = 1
-      call interpolate_state(trajectory, closed, hint, state)
-      call look(model, closed, state, resolution, top, now, position, edge, error)
-      if (.not. allocated(error)) call take_extremes(edge, values)
+      call take_state(model, trajectory, resolution, top, closed, all(samples%has_met), values, error)
    end subroutine add_edge
+
+   !> Take the state at an angle of a turn into the measures that are extremes.
+   subroutine take_state(model, trajectory, resolution, top, angle, has_met, values, error)
+      type(model_t), intent(in) :: model
+      type(trajectory_t), intent(in) :: trajectory
+      !> What the integration did not tell apart
+      type(resolution_t), intent(in) :: resolution
+      !> Largest lift of the rigid train [m]; cam angle [rad]
+      real(wp), intent(in) :: top, angle
+      !> Has the valve met its seat after the event?
+      logical, intent(in) :: has_met
+      !> The measures [unit of the measure]
+      real(wp), intent(inout) :: values(:)
+      !> Convergence error where the state cannot be evaluated
+      type(error_t), allocatable, intent(out) :: error
+
+      type(flexible_state_t) :: now
+      type(position_t) :: position
+      type(sample_t) :: sample
+      real(wp) :: state(size(trajectory%state, 1)) ! [state]
+      integer :: hint
+
+      hint = 1
+      call interpolate_state(trajectory, angle, hint, state)
+      call look(model, angle, state, resolution, top, now, position, sample, error)
+      if (allocated(error)) return
+      sample%has_met = has_met
+      call take_extremes(sample, values)
+   end subroutine take_state
 
    !> Highest point of the parabola through three points of which the second is not the lowest of all.
    pure subroutine find_vertex(angles, three, place, best)

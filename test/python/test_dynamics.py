@@ -104,18 +104,22 @@ def test_the_acceleration_of_the_valve_is_the_rate_of_its_speed(tmp_path, camrol
 @pytest.mark.once
 @pytest.mark.parametrize("deck, speed", [(DECK, 3108), (DECK, 2930), (ADJUSTER, 900)])
 def test_scalars_of_a_turn_are_the_extremes_of_its_series(tmp_path, camroller, deck, speed):
-    """Rows 0.02 degrees apart are never beyond a scalar, and come as near to it as so short a distance from an extreme lets them: the
-    third mode of the train at 2 kHz turns a quarter of a radian between rows at 3108 rev/min, and half of it from an extreme takes
-    1 - cos(0.13) = 8e-3 at most. The accuracy is 1e-4."""
+    """Rows 0.02 degrees apart are never beyond a scalar, and come near to it. The narrowest crest is that of the bounce of 1.7 um at 2930
+    rev/min: with 43.2 g under 210 N it rises for 26 us, and half a row from its top, 0.57 us, it is (0.57/26)^2 = 5e-4 lower. Of the train's
+    vibration at 2 kHz half a row takes 3e-5, and where the event begins or ends a load changes by 1e-4 within a row.
+    Lift errors and forces in the joint pass through zero and are compared with their ranges."""
     scalars, _ = run(camroller, deck, tmp_path / "run.h5", f"sweep.values_1={speed}", "output.angle_step_deg=0.02")
     with h5py.File(tmp_path / "run.h5") as file:
         rows = {name: values[0] for name, values in file["series"].items() if values.ndim == 2}
         angle = np.round(file["series/cam_angle"][:], 6)
-    lift, load = rows["valve_lift"], rows["contact_load"]
+    lift, load, joint = rows["valve_lift"], rows["contact_load"], rows["joint_force"]
+    rigid = lift - rows["lift_error"]
+    event = rigid >= 0.25*rigid.max()
     landed = 9000 + np.argmax(lift[9000:] <= 0)
     found = {"dynamic_load_max": load.max(), "closed_load_max": load[(angle <= 110) | (angle >= 250)].max(),
              "lift_error_min": rows["lift_error"].min(), "lift_error_max": rows["lift_error"].max(), "least_valve_lift": lift.min(),
-             "bounce_height": max(0, lift[landed:].max(), lift[:5500].max()), "joint_force_min": rows["joint_force"].min(),
+             "bounce_height": max(0, lift[landed:].max(), lift[:5500].max()), "joint_force_min": joint.min(),
+             "joint_force_min_event": joint[event].min(), "dynamic_load_min": load[event].min(),
              "surge_force": np.pi*25000*np.abs(rows["spring_mode_1"]).max()}
     if deck == ADJUSTER:
         found |= {"plunger_lowest": rows["plunger_travel"].min(), "plunger_highest": rows["plunger_travel"].max(),
@@ -123,9 +127,9 @@ def test_scalars_of_a_turn_are_the_extremes_of_its_series(tmp_path, camroller, d
     else:
         assert scalars["bounce_height"] > 1e-6
     for name, value in found.items():
-        beyond = (scalars[name] - value)*(-1 if name.endswith(("_min", "_lowest")) or name == "least_valve_lift" else 1)
-        scale = np.ptp(rows["joint_force"]) if name == "joint_force_min" else abs(value)
-        assert -1e-6*scale - 1e-12 < beyond < 8e-3*scale + 1e-12, (name, scalars[name], value)
+        beyond = (scalars[name] - value)*(-1 if name.endswith(("_min", "_min_event", "_lowest")) or name == "least_valve_lift" else 1)
+        scale = np.ptp(joint) if name.startswith("joint") else np.ptp(rows["lift_error"]) if name.startswith("lift") else abs(value)
+        assert -1e-6*scale - 1e-12 < beyond < 5e-4*scale + 1e-12, (name, scalars[name], value)
     assert scalars["dynamic_load_max"] == pytest.approx(scalars["max_contact_load"], rel=1e-6)
 
 
