@@ -101,22 +101,38 @@ def table_of(result):
 
 
 def remarks_of(result):
-    """Remarks on the deck; of the cases, those that differ in their numbers only once with the cases that have them; failures."""
+    """Remarks on the deck; of the cases, the worst of each kind with the number of cases that have one; failures."""
     with opened(result.path) as file:
         of_deck = [text_of(text) for text in file["deck/remarks"][()]] if "deck/remarks" in file else []
-        texts = [text_of(text) for text in file["run/warnings"][()]] if "run/warnings" in file else []
-    kinds = {}
-    for case, text in enumerate(texts):
-        for line in filter(None, map(str.strip, text.splitlines())):
-            if line not in of_deck:
-                kinds.setdefault(NUMBER.sub("#", line), {}).setdefault(case, line)
+        rows, chosen = (worst_remarks(file["run/remarks"]), "the worst is") if "run/remarks" in file else (first_remarks(file), "first")
     lines = [f"<li>{html.escape(line)}</li>" for line in of_deck]
-    for found in list(kinds.values())[:MOST_ROWS]:
-        case, line = next(iter(found.items()))
-        where = "" if result.cases == 1 else f"case {case}: " if len(found) == 1 else f"{len(found)} of {result.cases} cases, first case {case}: "
-        lines.append(f"<li>{where}{html.escape(line)}</li>")
+    for line, case, cases in [row for row in rows if row[0] not in of_deck][:MOST_ROWS]:
+        named = case_named(result, case)
+        where = "" if result.cases == 1 else f"{named}: " if cases == 1 else f"{cases} of {result.cases} cases, {chosen} {named}: "
+        lines.append(f"<li>{html.escape(where + line)}</li>")
     lines += [f"<li>{html.escape(line)}</li>" for line in failure_lines(result, range(result.cases), MOST_ROWS)]
     return f"<ul>\n{chr(10).join(lines)}\n</ul>" if lines else "<p>None.</p>"
+
+
+def case_named(result, case):
+    """A case by its number and what varies: `case 2 (speed 600 rev/min, oil temperature 95 °C)`."""
+    varied = [f"{key_words(key, axis.units)} {text} {unit_words(axis.units)}".rstrip() for key, axis in result.sweep.items()
+              for text in swept_texts(result, key, [case])]
+    return f"case {case} ({', '.join(varied)})" if varied else f"case {case}"
+
+
+def worst_remarks(group):
+    """Text, case and number of cases of the worst remark of each kind, as the program found them."""
+    return [(text_of(text), int(case), int(cases)) for text, case, cases in zip(*(group[name][()] for name in ("worst", "worst_case", "cases")))]
+
+
+def first_remarks(file):
+    """The same of files of older programs, which do not tell the worst: the first of those that differ in their numbers only."""
+    kinds = {}
+    for case, text in enumerate(file["run/warnings"][()] if "run/warnings" in file else []):
+        for line in filter(None, map(str.strip, text_of(text).splitlines())):
+            kinds.setdefault(NUMBER.sub("#", line), {}).setdefault(case, line)
+    return [(*next((line, case) for case, line in found.items()), len(found)) for found in kinds.values()]
 
 
 def deck_of(result):

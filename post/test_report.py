@@ -76,8 +76,9 @@ def test_remarks_of_a_kind_are_one_line_and_estimates_are_told(tmp_path):
             file.require_group("deck/values")[f"lubricant.{key}"] = words
     page = page_of(read_result(source))
     remarks = re.findall(r"<li>(.*)</li>", page)
-    of_cases = ["3 of 9 cases, first case 6: lobe 1: the joint lacks 6 N", "3 of 9 cases, first case 6: lobe 2: the joint lacks 6 N",
-                "case 8: the film is thin"]
+    third = "case 6 (speed 900 rev/min, oil temperature 25 °C)"
+    of_cases = [f"3 of 9 cases, first {third}: lobe 1: the joint lacks 6 N", f"3 of 9 cases, first {third}: lobe 2: the joint lacks 6 N",
+                "case 8 (speed 900 rev/min, oil temperature 95 °C): the film is thin"]
     assert remarks == of_cases
     with h5py.File(source, "a") as file:
         file["deck/remarks"] = ["roller.mass_kg = 9 is unusual", "the film is thin"]
@@ -90,6 +91,20 @@ def test_remarks_of_a_kind_are_one_line_and_estimates_are_told(tmp_path):
         file["deck/values/lubricant.sae_grade"][...] = "none"
     page = page_of(read_result(source))
     assert estimate not in page and "SAE grade" not in page
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_page_has_the_worst_case_of_a_remark_where_the_file_names_it(tmp_path):
+    source = write_result(tmp_path / "nine.h5")
+    with h5py.File(source, "a") as file:
+        file.pop("run/warnings", None)
+        file["run/warnings"] = ["", "lost for 2 %", "", "", "lost for 12 %", "lost for 7 %\nwide & far", "", "", "of the deck"]
+        file["deck/remarks"] = ["of the deck"]
+        group = file.create_group("run/remarks")
+        group["worst"], group["worst_case"], group["cases"] = ["lost for 12 %", "wide & far", "of the deck"], [4, 5, 8], [3, 1, 1]
+    assert re.findall(r"<li>(.*)</li>", page_of(read_result(source))) == [
+        "of the deck", "3 of 9 cases, the worst is case 4 (speed 600 rev/min, oil temperature 60 °C): lost for 12 %",
+        "case 5 (speed 600 rev/min, oil temperature 95 °C): wide &amp; far"]
 
 
 @pytest.mark.usefixtures("no_figures")

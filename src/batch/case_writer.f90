@@ -12,7 +12,7 @@ module camroller_case_writer
    use camroller_history_file, only : close_history, history_file_t, put_history
    use camroller_layout, only : join_quantities, layout_t, places_of
    use camroller_output, only : abandon_output, add_layout, close_output, not_computed, open_output, output_options_t, output_t, &
-      & write_outcome
+      & write_outcome, write_worst_remarks
    use camroller_part_scan, only : study_facts_t
    use camroller_profile_file, only : close_profiles, profile_file_t, put_profiles
    use camroller_remarks, only : note_remarks, remarks_t
@@ -178,7 +178,8 @@ contains
 
       call close_history(writer%history)
       call close_profiles(writer%profiles)
-      call close_output(writer%file, error)
+      call write_worst_remarks(writer%file, writer%tally%remarks, error)
+      if (.not. allocated(error)) call close_output(writer%file, error)
    end subroutine close_cases
 
    !> Give up: the unfinished file is removed.

@@ -30,13 +30,14 @@ module camroller_output
    use camroller_output_cases, only : check_position, create_layout => add_layout, gather_row, write_remark, write_rows, &
       & write_series_row, write_status
    use camroller_output_facts, only : write_deck, write_deck_lines, write_deck_table, write_measured, write_run, write_sweep, &
-      & write_table_count
+      & write_table_count, write_worst_remarks
    implicit none
    private
 
    public :: output_t, output_options_t, result_format, not_computed
    public :: open_output, add_layout, write_outcome, close_output, abandon_output
-   public :: write_deck, write_deck_table, write_table_count, write_deck_lines, write_sweep, write_measured, write_run
+   public :: write_deck, write_deck_table, write_table_count, write_deck_lines, write_sweep, write_measured, write_run, &
+      & write_worst_remarks
 
 contains
 

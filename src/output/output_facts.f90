@@ -7,15 +7,17 @@ module camroller_output_facts
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, create_texts, &
       & reserve_file, write_integers, write_numbers, write_text
-   use camroller_hdf5_attribute, only : attach_scale, put_attribute
+   use camroller_hdf5_attribute, only : attach_scale, make_scale, put_attribute
    use camroller_output_file, only : abandon_output, check_open, number_size, object_size, output_t, text_size
    use camroller_number_text, only : is_number
    use camroller_quotes, only : without_quotes
+   use camroller_remarks, only : remarks_t
    use camroller_text_lines, only : line_t
    implicit none
    private
 
-   public :: write_deck, write_deck_lines, write_deck_table, write_table_count, write_sweep, write_measured, write_run
+   public :: write_deck, write_deck_lines, write_deck_table, write_table_count, write_sweep, write_measured, write_run, &
+      & write_worst_remarks
 
    !> Values of a swept key: numbers or names
    interface write_sweep
@@ -93,6 +95,58 @@ contains
       call close_object(dataset)
       if (allocated(error)) call abandon_output(writer)
    end subroutine write_deck_lines
+
+   !> Store the worst remark of each kind, with its case and the number of cases that have one; nothing where no case has a remark.
+   subroutine write_worst_remarks(writer, remarks, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Remarks of all cases
+      type(remarks_t), intent(in) :: remarks
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: group, axis, dataset
+      integer :: i
+
+      call check_open(writer, error)
+      if (allocated(error) .or. .not. allocated(remarks%groups)) return
+      associate (groups => remarks%groups)
+         if (size(groups) == 0) return
+         call reserve_file(writer%file, 5*object_size + size(groups)*(text_size + 3*number_size) + &
+            & sum([(len(groups(i)%worst%text), i=1, size(groups))]), error)
+         if (.not. allocated(error)) call create_group(writer%run, "remarks", group, error)
+         if (.not. allocated(error)) call create_integers(group, "remark", shape(groups), axis, error)
+         if (.not. allocated(error)) call write_integers(axis, [(i - 1, i=1, size(groups))], error)
+         if (.not. allocated(error)) call make_scale(axis, error)
+         if (.not. allocated(error)) call create_texts(group, "worst", shape(groups), dataset, error)
+         do i = 1, size(groups)
+            if (.not. allocated(error)) call write_text(dataset, [i - 1], groups(i)%worst%text, error)
+         end do
+         call finish("the worst remark of the kind")
+         if (.not. allocated(error)) call create_integers(group, "worst_case", shape(groups), dataset, error)
+         if (.not. allocated(error)) call write_integers(dataset, groups%case_number - 1, error)
+         call finish("case of the worst remark, from 0")
+         if (.not. allocated(error)) call create_integers(group, "cases", shape(groups), dataset, error)
+         if (.not. allocated(error)) call write_integers(dataset, groups%cases, error)
+         call finish("number of cases with such a remark")
+      end associate
+      call close_object(axis)
+      call close_object(group)
+      if (allocated(error)) call abandon_output(writer)
+
+   contains
+
+      !> Give the dataset its axis, and close it.
+      subroutine finish(meaning)
+         !> What it is
+         character(len=*), intent(in) :: meaning
+
+         if (.not. allocated(error)) call put_attribute(dataset, "long_name", meaning, error)
+         if (.not. allocated(error)) call attach_scale(dataset, axis, 1, 1, error)
+         call close_object(dataset)
+      end subroutine finish
+
+   end subroutine write_worst_remarks
 
    !> Store a table that the deck names.
    subroutine write_deck_table(writer, group, path, heading, x, y, error)

@@ -50,6 +50,22 @@ def test_file_equals_that_of_run(camroller, deck, reference, tmp_path):
         assert len(sweep["series"]) == 0
 
 
+def test_the_worst_remark_of_each_kind_is_in_the_file_as_told(camroller, tmp_path):
+    deck, values = ROOT / "decks/thesis.nml", ("--set", "sweep.values_1=1000,6000,3000", "--set", "sweep.values_2=95", "--set", "output.series=.false.")
+    told = done(camroller, "run", deck, *values, "-o", "run.h5", folder=tmp_path).stderr
+    for shard in ("2/2", "1/2"):
+        done(camroller, "sweep", deck, *values, "-o", "merged.h5", "--shard", shard, "--quiet", folder=tmp_path)
+    done(camroller, "merge", deck, *values, "-o", "merged.h5", folder=tmp_path)
+    rows = [(text, int(case), int(cases)) for cases, case, text in
+            re.findall(r"remark on (\d+) of 3 cases, the worst is case (\d+) \([^)]*\): (.*)\n", told)]
+    assert any(text.startswith("contact is lost") and case == 1 and cases == 2 for text, case, cases in rows)
+    for name in ("run", "merged"):
+        with h5py.File(tmp_path / f"{name}.h5") as file:
+            group = file["run/remarks"]
+            assert list(zip(group["worst"].asstr(), group["worst_case"], group["cases"])) == rows, name
+            assert all(text in file["run/warnings"].asstr()[case].splitlines() for text, case, _ in rows)
+
+
 def test_remarks_on_the_deck_are_in_the_file_however_it_is_made(camroller, tmp_path):
     deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 400, 900")
     values = "--set", "roller.mass_kg=0.9"
