@@ -8,7 +8,8 @@ module camroller_deck_table_remarks
    use camroller_deck_case, only : fill_case
    use camroller_deck_engine, only : strokes_of
    use camroller_deck_sweep, only : sweep_t
-   use camroller_deck_tables, only : ask_crank, deck_tables_t, get_lift_table, get_pressure_table
+   use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table
+   use camroller_deck_table_angles, only : ask_angles, ask_crank, usual_event
    use camroller_dynamics, only : gas_force_t
    use camroller_engine, only : from_firing
    use camroller_error, only : error_t
@@ -29,8 +30,8 @@ module camroller_deck_table_remarks
 
    !> Digits of numbers in sentences
    integer, parameter :: digits = 6
-   !> Usual lengths of an event [deg of cam angle], and usual lifts [m]
-   real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
+   !> Usual lifts [m]
+   real(wp), parameter :: usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
    !> Part of the largest lift below which a lift may be noise, and above which a valve is open [-]
    real(wp), parameter :: nearly_zero = 0.01_wp, open_part = 0.1_wp
    !> Part of the largest lift that counts as full lift, which a lift is near to for a degree or two [-]; distance of full lift from
@@ -109,7 +110,7 @@ contains
       call remark_event(settings, group, table%path, lift, low, high, remarks)
       length = (lift%table_angle(high) - lift%table_angle(low))/degree
       if (length >= usual_event(1) .and. length <= usual_event(2)) return
-      words = ""
+      call ask_angles(length, words)
       if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = ask_crank
       if (2*count(lift%table_lift(low:high) < nearly_zero*largest) > high - low + 1) words = "; most of its lifts are below "// &
          & number_text(100.0_wp*nearly_zero, digits)//" % of the largest: where they are noise on the base circle, set them to 0"

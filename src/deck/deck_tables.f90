@@ -10,6 +10,7 @@ module camroller_deck_tables
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_complaint, only : complain
    use camroller_deck_mechanism, only : take_mechanism
+   use camroller_deck_table_angles, only : ask_angles, ask_crank
    use camroller_deck_table_headings, only : check_heading, wanted_columns
    use camroller_kinematics, only : mechanism_t
    use camroller_lift, only : lift_t
@@ -21,12 +22,10 @@ module camroller_deck_tables
    private
 
    public :: deck_tables_t, kept_table_t, table_groups, find_table, obtain_tables, get_lift_table, get_pressure_table
-   public :: wanted_columns, ask_crank
+   public :: wanted_columns
 
    !> Groups whose key `table` names a table of two columns
    character(len=*), parameter :: table_groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force"]
-   !> What to ask of angles that are too many for a cam
-   character(len=*), parameter :: ask_crank = "; is the angle that of the crankshaft? A table takes the cam's, half of it"
    !> Fewest rows of a table
    integer, parameter :: fewest_rows = 8
    !> The largest lift must be so near to the nose [deg]
@@ -227,20 +226,42 @@ contains
       ! What is not lifted may be anywhere: a contour closes, wherever its polar angle begins
       first = findloc(lift > nothing, .true., dim=1)
       last = findloc(lift > nothing, .true., dim=1, back=.true.)
-      if (max(abs(table%x(top)), table%x(n) - table%x(1)) > 360.0_wp .and. kind /= kind_contour .and. &
-         & abs(table%x(top) - nose_degrees) > nose_distance) then
-         call row_mistake(table, top, "the largest lift is at "//number_text(table%x(top), 6)//" of "// &
-            & number_text(table%x(1), 6)//" to "//number_text(table%x(n), 6)//" degrees"//ask_crank, mistakes)
-      else if (abs(table%x(top) - nose_degrees) > nose_distance) then
-         call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)//" degrees, is far from the "// &
-            & "nose at "//number_text(nose_degrees, 6)//"; see 'table_nose_angle_deg' of &"//group, mistakes)
-      else if (table%x(first) < nose_degrees - 180.0_wp .or. table%x(last) > nose_degrees + 180.0_wp) then
-         call row_mistake(table, merge(first, last, table%x(first) < nose_degrees - 180.0_wp), "the lift must lie within 180 "// &
-            & "degrees of the nose at "//number_text(nose_degrees, 6), mistakes)
-      else if (mistakes%count == 0) then
-         call check_form(settings, group, table, kind, mistakes)
-      end if
+      call check_nose(group, table, top, first, last, nose_degrees, kind == kind_contour, mistakes)
+      if (mistakes%count == 0) call check_form(settings, group, table, kind, mistakes)
    end subroutine check_lift
+
+   !> Is the event where the nose is said to be, and not longer than a turn?
+   subroutine check_nose(group, table, top, first, last, nose, is_contour, mistakes)
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      type(table_t), intent(in) :: table
+      !> Row of the largest lift, first and last row with a lift
+      integer, intent(in) :: top, first, last
+      !> Cam angle of the nose in the table [deg]
+      real(wp), intent(in) :: nose
+      !> Is it a contour?
+      logical, intent(in) :: is_contour
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      character(len=:), allocatable :: advice
+      !> Length of the table [deg]
+      real(wp) :: length
+
+      length = table%x(size(table%x)) - table%x(1)
+      if (max(abs(table%x(top)), length) > 360.0_wp .and. .not. is_contour .and. abs(table%x(top) - nose) > nose_distance) then
+         call row_mistake(table, top, "the largest lift is at "//number_text(table%x(top), 6)//" of "// &
+            & number_text(table%x(1), 6)//" to "//number_text(table%x(size(table%x)), 6)//" degrees"//ask_crank, mistakes)
+      else if (abs(table%x(top) - nose) > nose_distance) then
+         call ask_angles(length, advice)
+         if (advice == "" .or. length > 360.0_wp) advice = "; see 'table_nose_angle_deg' of &"//group
+         call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)//" degrees, is far from the "// &
+            & "nose at "//number_text(nose, 6)//advice, mistakes)
+      else if (table%x(first) < nose - 180.0_wp .or. table%x(last) > nose + 180.0_wp) then
+         call row_mistake(table, merge(first, last, table%x(first) < nose - 180.0_wp), "the lift must lie within 180 "// &
+            & "degrees of the nose at "//number_text(nose, 6), mistakes)
+      end if
+   end subroutine check_nose
 
    !> Does the event of a table of a turn begin before the turn's end, and end in the next turn?
    pure function runs_across(angle, lift, nothing) result(verdict)
@@ -387,6 +408,7 @@ contains
 
       !> Length of the table, and the widest distance in it [deg]
       real(wp) :: length, widest
+      character(len=:), allocatable :: advice
       integer :: n
 
       if (.not. allocated(table%x)) return
@@ -395,8 +417,9 @@ contains
       length = table%x(n) - table%x(1)
       widest = maxval(table%x(2:) - table%x(:n - 1))
       if (length > 360.0_wp .or. length < 360.0_wp - 2.0_wp*widest) then
+         call ask_angles(length, advice)
          call row_mistake(table, n, "the table must cover one turn of the camshaft, 360 degrees, not "// &
-            & number_text(length, 6)//trim(merge(ask_crank, repeat(" ", len(ask_crank)), length > 360.0_wp)), mistakes)
+            & number_text(length, 6)//advice, mistakes)
       else if (length >= 360.0_wp .and. abs(table%y(n) - table%y(1)) > same_pressure*maxval(abs(table%y))) then
          call row_mistake(table, n, "the pressure must end as it begins, with "//number_text(table%y(1), 10), mistakes)
       end if

@@ -154,8 +154,21 @@ contains
       call expect_pressure(error, rows//"360 0"//n//"390 30"//n, path//":14: the table must cover one turn of the camshaft, "// &
          & "360 degrees, not 390; is the angle that of the crankshaft?")
       call expect_pressure(error, rows(:index(rows, "270") - 1), path//":9: the table must cover one turn")
+      call expect_pressure(error, rows_in_radians(), path//":13: the table must cover one turn of the camshaft, 360 degrees, "// &
+         & "not 6.28319; are the angles in radians? A table takes degrees")
       call expect_pressure(error, rows, "")
    end subroutine pressure_mistakes
+
+   !> A turn of the cylinder pressure, with its angles in radians.
+   function rows_in_radians() result(rows)
+      character(len=24*13) :: rows
+
+      integer :: i
+
+      do i = 0, 12
+         write (rows(24*i + 1:24*i + 24), '(f9.5, 1x, i13, a)') 30*i*degree, modulo(i, 12), n
+      end do
+   end function rows_in_radians
 
    !> A pressure table has one mistake, and its message begins with some words; none where these are blank.
    subroutine expect_pressure(error, rows, message)

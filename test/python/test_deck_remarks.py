@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import make_interp_spline
 
+from conftest import run
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -480,6 +482,19 @@ def test_a_lift_table_in_wrong_units_gives_a_remark(camroller, tmp_path, change,
     (tmp_path / "lift.txt").write_text("\n".join("{} {}".format(*change(*row)) for row in rows), encoding="utf-8")
     remarks = remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={tmp_path / 'lift.txt'}")
     assert any(re.search(words, remark) for remark in remarks), remarks
+
+
+@pytest.mark.parametrize(("nose", "words"), [
+    ("180", "the largest lift, at 3.14159 degrees, is far from the nose at 180; are the angles in radians? A table takes degrees\n"),
+    # beside the refusal of a cam that is as steep
+    ("3.14159", "remark: {table}: an event of 2.72271 degrees of cam angle is unusual: engines have 60 to 220; are the angles in radians? A table takes degrees\n"),
+])
+def test_a_lift_table_in_radians_is_asked_for_degrees(camroller, tmp_path, nose, words):
+    text, table = (ROOT / "decks/tables/polynomial_lift.txt").read_text(encoding="utf-8"), tmp_path / "lift.txt"
+    rows = [line.split() for line in text.splitlines() if line.strip() and line.strip()[0].isdigit()]
+    table.write_text("".join(f"{math.radians(float(angle)):.8f} {lift}\n" for angle, lift in rows), encoding="utf-8")
+    result = run(camroller, "check", "decks/tabulated_lift.nml", "--set", f"lift.table={table}", "--set", f"lift.table_nose_angle_deg={nose}")
+    assert result.returncode in (3, 4) and words.format(table=table) in result.stderr, result.stderr
 
 
 def test_a_usual_value_gives_no_remark_and_defaults_show_the_range(camroller):
