@@ -66,8 +66,7 @@ contains
       end if
       do i = 1, size(inputs)
          if (.not. is_same_file(facts, facts_of_path(inputs(i)%text))) cycle
-         call raise(error, kind_usage, "'"//path//"' would replace '"//inputs(i)%text//"', which is read; give the result "// &
-            & "another name by --output")
+         call raise(error, kind_usage, "'"//path//"' would replace '"//inputs(i)%text//"', which is read; give another name")
          return
       end do
       if (.not. facts%is_regular) then

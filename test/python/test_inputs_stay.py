@@ -68,7 +68,7 @@ def test_the_deck_is_not_overwritten_under_any_of_its_names(camroller, folder, s
             (folder / "two").symlink_to(folder / "one")
             target = "two"
     words = refused(camroller, folder, ["run", "lift.nml", *COARSE], target, USAGE)
-    assert words == f"camroller: '{target}' would replace 'lift.nml', which is read; give the result another name by --output\n"
+    assert words == f"camroller: '{target}' would replace 'lift.nml', which is read; give another name\n"
 
 
 @pytest.mark.parametrize("command", WRITERS)
