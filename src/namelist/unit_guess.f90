@@ -63,6 +63,10 @@ contains
 
       ! Beyond it the number in another unit could overflow [unit of the key]
       real(wp), parameter :: largest = 1.0e-20_wp*huge(1.0_wp)
+      ! Where zero is usual, any smaller number is usual, too, and tells nothing: one in a unit a thousand times smaller is asked
+      ! for from where a number is nearer to a thousand times the largest usual one than to that one itself, in powers of ten [-]
+      real(wp), parameter :: far = sqrt(1.0e3_wp)
+      logical :: is_near
       integer :: place, i
 
       words = ""
@@ -82,7 +86,11 @@ contains
       end if
       place = findloc(slips%suffix, key%unit%suffix, dim=1)
       if (place == 0) return
+      associate (usual => key%usual)
+         is_near = is_usual(0.0_wp, usual) .and. abs(number) < far*max(abs(usual%smallest), abs(usual%largest))
+      end associate
       do i = 1, count(slips(place)%powers /= 0)
+         if (is_near .and. slips(place)%powers(i) < 0) cycle
          call ask_value(key, number*10.0_wp**slips(place)%powers(i), "", words)
       end do
    end subroutine say_meant

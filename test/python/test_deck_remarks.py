@@ -49,6 +49,11 @@ def test_no_remark_on_a_deck_of_an_engine(checked, deck):
     (["traction.limiting_coefficient=8"], r"limiting_coefficient = 8 .*did you mean 0.08, which is 8 %\?"),
     (["sweep.values_2=25,363.15"], r"oil_temperature_degC = 363.15 .*did you mean 90 degC, which is 363.15 K\?"),
     (["sweep.values_1=300,600,90000"], r"operating_point.speed_rpm = 90000 is unusual"),
+    # where zero is usual a thousandth of anything is, and only a number far above the usual ones tells of another unit
+    (["surface.cam_roughness_um=250"], r"cam_roughness_um = 250 .*did you mean 0.25 um\?"),
+    (["surface.cam_roughness_um=95"], r"cam_roughness_um = 95 .*did you mean 0.095 um\?"),
+    (["surface.cam_roughness_um=94"], r"cam_roughness_um = 94 is unusual: engines have 0 to 3 um$"),
+    (["surface.cam_roughness_um=3.2"], r"cam_roughness_um = 3.2 is unusual: engines have 0 to 3 um$"),
 ], ids=str)
 def test_an_unusual_value_gives_a_remark(camroller, values, words):
     remarks = remarks_of(camroller, "decks/thesis.nml", *values)
