@@ -7,6 +7,7 @@ module camroller_ehl_profiles
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t
+   use camroller_contact_heat, only : has_hot_contact
    use camroller_contact_traction, only : has_hot_boundary
    use camroller_dynamics, only : moments_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, prepare_march
@@ -152,7 +153,7 @@ contains
          cycle%moments(i)%sliding_speed = speeds(i)
          call solve_at(model, march, before, state, cycle%moments(i), converged)
          if (.not. converged) then
-            call raise(error, kind_convergence, "ehl: no film at "//cam_angle_text(angles(i), 3))
+            call raise_unsolved(has_hot_contact(model), angles(i), error)
             return
          end if
          before(1) = cycle%moments(i)
@@ -162,6 +163,24 @@ contains
          if (allocated(state%fields%rise)) cycle%film_rise(:, i) = state%fields%rise
       end do
    end subroutine steady_contacts
+
+   !> The error where a contact is not solved: of the iteration, which says nothing of the film itself.
+   subroutine raise_unsolved(is_hot, angle, error)
+      !> Is the temperature solved for, too?
+      logical, intent(in) :: is_hot
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (is_hot) then
+         call raise(error, kind_convergence, "the iteration of film, pressure and temperature did not end at "// &
+            & cam_angle_text(angle, 3)//"; isothermal profiles, with inlet_law = 'none' and contact = 'none' in &heat, "// &
+            & "need that of film and pressure alone")
+      else
+         call raise(error, kind_convergence, "the iteration of film and pressure did not end at "//cam_angle_text(angle, 3))
+      end if
+   end subroutine raise_unsolved
 
    !> Film and friction at one angle. Where the coefficient of boundary friction follows the temperature of the surfaces, both are
    !> solved for by turns: the heat of boundary friction is a part of all heat, and the coefficient a weak function of it.

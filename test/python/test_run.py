@@ -366,6 +366,20 @@ def test_profiles_of_a_run_have_no_torques_and_say_what_is_not_in_them(camroller
         assert "traction" in file["ehl"] and not {"torque_drive", "energy_residual"} & set(file["ehl"])
 
 
+@pytest.mark.parametrize("heat", ["film", "none"])
+def test_profiles_that_are_not_solved_name_the_iteration_and_the_angle(camroller, tmp_path, heat):
+    """Oil that 3000 rev/min shear at -20 degC: film and temperature find no common state, while the isothermal film is found."""
+    text = (ROOT / "decks/heated_contact.nml").read_text() + "\n&ehl\n   profiles = .true.\n/\n"
+    (tmp_path / "deck.nml").write_text(text)
+    isothermal = ("--set", "heat.inlet_law=none", "--set", "heat.contact=none") if heat == "none" else ()
+    told = done(camroller, "run", "deck.nml", "-o", "run.h5", "--set", "sweep.values_1=3000", "--set", "sweep.values_2=-20",
+                "--set", "output.angle_step_deg=45", *isothermal, folder=tmp_path).stderr
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert ("ehl" in file) == (heat == "none")
+    assert ("no profiles: the iteration of film, pressure and temperature did not end at cam angle 135.000 deg; isothermal profiles, with "
+            "inlet_law = 'none' and contact = 'none' in &heat, need that of film and pressure alone\n" in told) == (heat == "film")
+
+
 def test_a_film_beyond_its_table_is_not_one_outside_a_published_range(camroller, tmp_path):
     (tmp_path / "deck.nml").write_text(f"include = '{ROOT}/decks/hard/light_base_circle_load.nml'\n&ehl\n/\n")
     result = run(camroller, "run", "deck.nml", "-o", "run.h5", "--set", "film.range_policy=stop", folder=tmp_path)
