@@ -55,10 +55,29 @@ def test_deck_keys_exist():
     assert [f"{group}.{key}" for group, key in named if key not in groups.get(group, ())] == []
 
 
+def text_and_references():
+    """The page on one line, as far as its references, and these."""
+    text, _, references = PAGE.partition("\n## 24. ")
+    return re.sub(r"\s+", " ", text), re.sub(r"\n +", " ", references).split("\n- ")[1:]
+
+
+def is_cited(text, entry):
+    """Does a text name the first author of an entry, and soon its year? Of a standard its number."""
+    head = entry.partition(":")[0]
+    if (found := re.match(r"(?:de |van )?([A-Z][\w-]*)[^()]*\((\d{4})\)", head)) is None:
+        return head in text
+    return re.search(rf"\b{found[1]}\b[^.;]{{0,90}}\b{found[2]}\b", text) is not None
+
+
+def test_works_in_the_references_are_cited():
+    text, entries = text_and_references()
+    assert len(entries) > 70 and [entry for entry in entries if not is_cited(text, entry)] == []
+    assert not is_cited(text, "Dyson, A. (1981): Another.") and not is_cited(text, "ISO 1: One.")
+
+
 def test_cited_works_are_in_the_references():
     """`Author (year)`, or `(Author year)`; all authors that the text names are at the beginning of one entry, before its year."""
-    text = re.sub(r"\s+", " ", PAGE[:PAGE.index("\n## 24. ")])
-    entries = re.sub(r"\n +", " ", PAGE[PAGE.index("\n## 24. "):]).split("\n- ")[1:]
+    text, entries = text_and_references()
     name = r"(?:de |van )?[A-Z][\w-]*[a-z]"
     authors = rf"({name}(?:(?:, | and ){name})*)(?: and others)?"
     cited = set(re.findall(rf"{authors} \((\d{{4}})\)", text))
