@@ -29,6 +29,7 @@ TONES = ["#08306b", "#7cc0ea", "#d55e00", "#1b7837", "#54278f", "0.4"]  # of tem
 TITLE = 90  # characters of a line above a figure
 SAME = 1e-6  # relative difference of two operating points that are one
 AFTER_UNIT = re.compile(r'(?<=\])"?\s+')  # parts a heading without commas
+ON_COMMAS = "; a comma parts columns, decimals have a point"  # as the program says of its own tables
 HEADING = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")
 
 
@@ -93,12 +94,13 @@ def read_table(path):
         units[names[-1]] = found[2]
     rows = []
     for place, line in lines[1:]:
+        advice = ON_COMMAS if "," in line else ""
         try:
             rows.append([float(cell) for cell in line.split(parts if parts in line else None)])
         except ValueError:
-            raise ResultError(f"{path}: line {place} is not of numbers: {line.strip()}") from None
+            raise ResultError(f"{path}: line {place} is not of numbers: {line.strip()}{advice}") from None
         if len(rows[-1]) != len(names):
-            raise ResultError(f"{path}: line {place} has {len(rows[-1])} of {len(names)} columns")
+            raise ResultError(f"{path}: line {place} has {len(rows[-1])} of {len(names)} columns{advice}")
         if not np.isfinite(rows[-1]).all():
             raise ResultError(f"{path}: line {place}: only finite numbers are allowed, not {line.strip()}; leave out rows without a value")
     columns = dict(zip(names, np.array(rows).T))
