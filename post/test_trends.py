@@ -130,6 +130,23 @@ def test_the_page_has_each_trend_for_a_roller_that_sticks_too():
     assert "at 95 °C in 1, 0 and 0 % of the sets" in text
 
 
+def test_a_correlation_is_shown_at_all_points_and_counts_beyond_twice_its_error():
+    values, data = trends.samples(), made_up()
+    column = values[:, [key for key, *_ in trends.RANGES].index("surface.cam_roughness_um")]
+    noise = np.random.default_rng(1).permutation(trends.SAMPLES)
+    data["revolution_slip"][:, 0, 0] = -column
+    data["revolution_slip"][:, 0, 1] = column
+    data["revolution_slip"][:, 2, 2] = noise
+    row = next(row for row in trends.find_monotonies(data) if row[0] == "Duffy 1993")
+    assert row[3][0, 0] == pytest.approx(-1.0) and row[3][0, 1] == pytest.approx(1.0)
+    assert abs(row[3][2, 2]) < 2 * trends.correlation_error() == pytest.approx(2 / np.sqrt(127))
+    assert np.isnan(row[3]).sum() == 6
+    assert np.argwhere(trends.comes_out(row[2], row[3])).tolist() == [[0, 0]]
+    text = "\n".join(trends.tell_monotonies(data, made_up()))
+    assert "| Duffy 1993 | roughness lowers slip | 300 | -1.00 | +1.00 | - | - | - | - | 1 of 9 points | 0 of 9 points |" in text
+    assert text.count("rev/min") == 1 and text.count(" | 900 | ") == len(trends.find_monotonies(data)) and "0.09 (" in text
+
+
 def test_the_deciding_coefficient_is_found():
     values = trends.samples()
     column = [key for key, *_ in trends.RANGES].index("stem_seal.lip_force_N")

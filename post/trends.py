@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compare measured trends of roller valve trains with what the model gives over the plausible ranges of uncertain coefficients.
+"""Compare measured trends of valve trains with what the model gives over the plausible ranges of uncertain coefficients.
 
     python post/trends.py --cases FOLDER         writes FOLDER/trends.nml and pin.nml with their tables of cases, to be run
     python post/trends.py FILE.h5 STICKING.h5 PIN.h5 --page doc/trends.md --figure doc/figures/trends.png
@@ -242,20 +242,45 @@ def trends_of_rigs(train, roller, pin):
 
 
 def find_monotonies(data):
-    """Source, trend, rank correlation over all samples at one point."""
-    slip = data["revolution_slip"]
-    rank = {key: i for i, (key, *_) in enumerate(RANGES)}
-    values = samples()
-
-    def correlation(key, series):
-        return spearmanr(values[:, rank[key]], series).statistic
-
+    """Source, trend, its sign, rank correlation of the slip with a coefficient over all samples, by speed and temperature."""
     return [
         ("Khurram and others 2015, 2020", "friction modifiers and anti-wear agents, which change the boundary coefficient, raise slip: a lower "
-         "coefficient, more slip, 300 rev/min, 95 °C", correlation("asperity.boundary_coefficient", slip[:, 0, 2])),
-        ("Duffy 1993", "roughness lowers slip, 600 rev/min, 60 °C", correlation("surface.cam_roughness_um", slip[:, 1, 1])),
-        ("", "drag of the bearing raises slip, 600 rev/min, 60 °C", correlation("needle_drag.viscous_factor", slip[:, 1, 1])),
+         "coefficient, more slip", -1, correlations("asperity.boundary_coefficient", data["revolution_slip"])),
+        ("Duffy 1993", "roughness lowers slip", -1, correlations("surface.cam_roughness_um", data["revolution_slip"])),
     ]
+
+
+def correlations(key, values):
+    """Rank correlation of values by sample, speed and temperature with a coefficient, at each point; not-a-number where none differs."""
+    column = samples()[:, [key for key, *_ in RANGES].index(key)]
+    return np.array([[spearmanr(column, series).statistic if np.ptp(series) > 0 else np.nan for series in row] for row in
+                     np.moveaxis(values, 0, -1)])
+
+
+def correlation_error():
+    """Standard error of a rank correlation over the samples where there is none."""
+    return 1 / np.sqrt(SAMPLES - 1)
+
+
+def comes_out(sign, values):
+    """Points at which a correlation has the sign of the trend and is at least twice its error."""
+    return sign * values >= 2 * correlation_error()
+
+
+def tell_monotonies(data, sticking):
+    """Lines of the page: trends over the sets, at all points."""
+    lines = ["", f"Rank correlation of the slip of the turn with a coefficient over the sets. Without any, its standard error is {correlation_error():.2f} "
+             f"($1/\\sqrt{{n - 1}}$, $n = {SAMPLES}$); a trend comes out where the", "correlation has its sign and is at least twice that. Elsewhere it does "
+             "not differ from none, or has the other sign.", "",
+             "| source | trend over the sets | rev/min | 25 °C | 60 °C | 95 °C | if it sticks: 25 °C | 60 °C | 95 °C | comes out at | if it sticks |",
+             "|---|---|---|---|---|---|---|---|---|---|---|"]
+    for (source, trend, sign, values), (*_, then) in zip(find_monotonies(data), find_monotonies(sticking)):
+        counts = [f"{comes_out(sign, each).sum()} of {each.size} points" for each in (values, then)]
+        for i, speed in enumerate(SPEEDS):
+            words, ends = ((source, trend), counts) if i == 0 else (("", ""), ("", ""))
+            numbers = ["-" if np.isnan(value) else f"{value:+.2f}" for value in (*values[i], *then[i])]
+            lines.append("| " + " | ".join([*words, f"{speed:.0f}", *numbers, *ends]) + " |")
+    return lines
 
 
 def share(shown):
@@ -351,7 +376,8 @@ their conditions only.
 - Khurram, M., Mufti, R. A. and others (2015, 2020): Tribology International. End-pivoted roller fingers in an engine.
 - Lee, J. and Patterson, D. J. (1994, 1995): SAE Technical Papers 940589 and 951039.
 - Li and others (2023): Lubricants 11, 361.
-- Mufti, R. A. and Priest, M. (2003): J. Tribology 125, 628. Torque of whole camshafts, bearings included.
+- Mufti, R. A. and Priest, M. (2003): J. Tribology 125, 628. Torque of whole camshafts, bearings included; the abstract names no kind of
+  follower.
 - Pushrod tester of practical size with roller followers: Transactions of the Japan Society of Mechanical Engineers.
 - Umar, M., Mufti, R. A. and Khurram, M. (2018): Tribology International.
 """.splitlines()
@@ -360,8 +386,9 @@ their conditions only.
 def page(data, sticking, pin):
     """The page in Markdown; `sticking` has the same cases with stick-slip, `pin` those with a plain pin."""
     lines = ["# Measured trends", "",
-             "Trends that others measured on roller valve trains, and for what fraction of the plausible coefficients the model reproduces them. Trends are",
-             "compared and not numbers, because the rigs differ from the train computed here. Nothing is fitted. The sources were read as abstracts only.",
+             "Trends that others measured on valve trains, with rollers as far as their abstracts name the follower, and for what fraction of the plausible",
+             "coefficients the model reproduces them. Trends are compared and not numbers, because the rigs differ from the train computed here. Nothing is",
+             "fitted. The sources were read as abstracts only.",
              "`make trends` (`post/trends.py`) makes this page.", "",
              f"There are {SAMPLES} sets of coefficients and laws, distributed uniformly over the ranges below. Each is computed at nine points: 300, 600 and",
              "900 rev/min of the camshaft, oil at 25, 60 and 95 °C. All other values are those of `decks/sliding_joints.nml`, with drag of the needles, and",
@@ -382,9 +409,7 @@ def page(data, sticking, pin):
     for (source, trend, shown, clearly), (_, _, then, _) in zip(find_trends(data, pin), find_trends(sticking, pin)):
         lines.append(f"| {source} | {trend} | {share(shown)} | {'-' if clearly is None else share(clearly)} | {100 * then.mean():.0f} % "
                      f"| {where_it_lies(shown)} |")
-    lines += ["", "| source | trend over the sets | rank correlation | if it sticks |", "|---|---|---|---|"]
-    for (source, trend, value), (_, _, then) in zip(find_monotonies(data), find_monotonies(sticking)):
-        lines.append(f"| {source} | {trend} | {value:+.2f} | {then:+.2f} |")
+    lines += tell_monotonies(data, sticking)
     lines += ["", *tell_levels(data, pin), "", "![Friction torque over oil temperature](figures/trends.png)", "",
               "*Mean friction torque over the oil temperature, one line for each set: above without camshaft bearings, below that of cam on roller and",
               "roller bearing alone. Orange if it rises from 60 to 95 °C.*", "", *NOT_COMPARED, "", *SOURCES, ""]
