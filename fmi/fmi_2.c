@@ -90,7 +90,7 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
                       int logging) {
    char path[4096];
    component *self = calloc(1, sizeof *self);
-   (void)guid, (void)visible, (void)logging;
+   (void)visible, (void)logging;
    if (self == NULL) return NULL;
    self->callbacks = callbacks;
    self->name = calloc(1, strlen(name) + 1);
@@ -99,7 +99,7 @@ void *fmi2Instantiate(const char *name, int type, const char *guid, const char *
       tell(self, 1, "the FMU is for co-simulation, and needs the place of its resources");
    } else {
       path_of(resources, path, sizeof path);
-      self->core = instance_new(path, tell, self);
+      self->core = instance_new(path, guid, tell, self);
    }
    if (self->core != NULL) return self;
    fmi2FreeInstance(self);

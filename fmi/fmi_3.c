@@ -47,7 +47,7 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
                                   bool event_mode, bool early_return, const uint32_t intermediate[], size_t intermediates,
                                   void *environment, logger3 logger, void (*update)(void)) {
    component *self = calloc(1, sizeof *self);
-   (void)name, (void)token, (void)visible, (void)logging, (void)event_mode, (void)early_return, (void)intermediate;
+   (void)name, (void)visible, (void)logging, (void)event_mode, (void)early_return, (void)intermediate;
    (void)intermediates, (void)update;
    if (self == NULL) return NULL;
    self->logger = logger;
@@ -55,7 +55,7 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
    if (resources == NULL) {
       tell(self, 1, "the FMU needs the place of its resources");
    } else {
-      self->core = instance_new(resources, tell, self);
+      self->core = instance_new(resources, token, tell, self);
    }
    if (self->core != NULL) return self;
    fmi3FreeInstance(self);

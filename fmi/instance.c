@@ -1,6 +1,6 @@
 /* One instance of an FMU. What the numbers of its variables mean is read from a file beside its deck, which `camroller fmu` writes
- * together with the model description: one line for each variable, its kind, cam and place, its key or the name of its number, and its
- * value at the start. */
+ * together with the model description: a line with the token of that description, then one for each variable, its kind, cam and place,
+ * its key or the name of its number, and its value at the start. */
 #define _POSIX_C_SOURCE 200809L /* for newlocale */
 #include "instance.h"
 
@@ -76,12 +76,26 @@ static void end_c_locale(locale_t before, locale_t made) {
    freelocale(made);
 }
 
-static int read_variables(instance *self) {
+/* Is an instance made with the token of the description that was written with the file? Else its numbers may mean something else. */
+static int check_token(instance *self, FILE *file, const char *token) {
+   char line[LINE_ROOM], own[LINE_ROOM];
+   if (fgets(line, sizeof line, file) == NULL || sscanf(line, "token %255s", own) != 1)
+      return instance_refuse(self, "resources/variables.txt of the FMU is damaged");
+   if (token != NULL && strcmp(own, token) == 0) return 1;
+   return instance_refuse(self, "the token, in FMI 2 the GUID, is not that of the FMU: model description and resources are of "
+                                "different FMUs");
+}
+
+static int read_variables(instance *self, const char *token) {
    char path[PATH_ROOM + 32], line[LINE_ROOM], word[32];
    size_t room = 0;
    snprintf(path, sizeof path, "%s/variables.txt", self->resources);
    FILE *file = fopen(path, "r");
    if (file == NULL) return instance_refuse(self, "the FMU has no resources/variables.txt");
+   if (!check_token(self, file, token)) {
+      fclose(file);
+      return 0;
+   }
    locale_t made_locale, before = begin_c_locale(&made_locale);
    while (fgets(line, sizeof line, file) != NULL) {
       variable made = {KINDS, 0, 0, "", 0.0};
@@ -108,12 +122,12 @@ static void set_starts(instance *self) {
    for (size_t i = 0; i < self->count; i++) self->now.values[i] = self->variables[i].start;
 }
 
-/* The FMU's own OpenBLAS has no threads of its own. */
+/* The OpenBLAS has no threads of its own: that of the FMU, or of the process where it has one of that name already. */
 static void settle_blas(void) {
    camroller_use_one_blas_thread();
 }
 
-instance *instance_new(const char *resources, listener tell, void *who) {
+instance *instance_new(const char *resources, const char *token, listener tell, void *who) {
    static pthread_once_t is_settled = PTHREAD_ONCE_INIT;
    instance *self = calloc(1, sizeof *self);
    if (self == NULL) return NULL;
@@ -124,7 +138,7 @@ instance *instance_new(const char *resources, listener tell, void *who) {
    snprintf(self->resources, sizeof self->resources, "%s", resources);
    size_t length = strlen(self->resources);
    while (length > 1 && self->resources[length - 1] == '/') self->resources[--length] = 0;
-   if (read_variables(self)) {
+   if (read_variables(self, token)) {
       self->now.values = malloc(self->count * sizeof(double));
       self->pressures = malloc((2 * (size_t)self->cams + 2) * sizeof(double));
       self->row = calloc(self->row_room + 1, sizeof(double));

@@ -12,8 +12,9 @@ typedef struct state state;
 /* Who hears of errors, and of remarks, with which an instance goes on */
 typedef void (*listener)(void *who, int is_error, const char *message);
 
-/* Every call returns 1, or 0 after the listener has heard why not. Numbers of variables are those of the model description. */
-HIDDEN instance *instance_new(const char *resources, listener tell, void *who);
+/* Every call returns 1, or 0 after the listener has heard why not. Numbers of variables are those of the model description, which the
+ * token tells apart from others. */
+HIDDEN instance *instance_new(const char *resources, const char *token, listener tell, void *who);
 HIDDEN void instance_free(instance *self);
 HIDDEN int instance_reset(instance *self);
 HIDDEN int instance_get(instance *self, unsigned number, double *value);

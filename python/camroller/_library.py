@@ -226,7 +226,8 @@ def load_library():
         function.argtypes = arguments
     if library.camroller_library_version() // 100 != INTERFACE:
         raise ImportError("camroller: the library beside the package belongs to another version of it")
-    # the OpenBLAS beside it is its own: that of numpy keeps its threads
+    # of the OpenBLAS beside it, that of numpy's wheel keeps its threads; where the process has loaded a libopenblas.so.0 before, the
+    # loader takes that one, and it has one thread from here on
     library.camroller_use_one_blas_thread()
     return library
 

@@ -29,6 +29,8 @@ module camroller_fmu_file
    character(len=*), parameter :: groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force"]
    !> Name of the library of an FMU in its folder; in an FMU it has the name of the model
    character(len=*), parameter :: library_name = "camroller_fmi.so"
+   !> Beginning of the name of the library of the package of Python in that folder: what is in it is in that of an FMU, too
+   character(len=*), parameter :: package_library = "libcamroller"
    !> Most bytes of a library or a table
    integer(int64), parameter :: most_bytes = 500000000_int64
    !> Letters that names of libraries have: those of identifiers of C
@@ -68,8 +70,8 @@ contains
       call write_variables(variables, table)
       call write_resolved(deck, text, is_short=.true.)
       call add_member("resources/deck.nml", text, members)
-      call add_member("resources/variables.txt", table, members)
       token = hexadecimal_text(checksum(text_words(text), checksum(text_words(table), int(version, int64))))
+      call add_member("resources/variables.txt", "token "//token//new_line("a")//table, members)
       call describe_fmu(version, identifier, case%title, token, two_pi/case%operating_point%speed, variables, text)
       call add_member("modelDescription.xml", text, members)
       call make_archive(members(size(members):1:-1), bytes, error)
@@ -154,6 +156,7 @@ contains
       call find_files(folder//"lib", paths)
       do i = 1, size(paths)
          name = paths(i)%text(len(folder) + 1:)
+         if (index(name, package_library) == 1) cycle
          call read_bytes(paths(i)%text, most_bytes, content, error)
          if (allocated(error)) return
          call add_member(trim(place)//name, content, members)

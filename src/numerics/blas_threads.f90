@@ -5,7 +5,8 @@
 !> than there are cores. With another BLAS library nothing is changed. The routine is looked up at run time, so the program links
 !> with any BLAS; where OpenBLAS is linked statically the routine may not be found, and the environment variable
 !> OPENBLAS_NUM_THREADS has to be used instead. The setting applies to the whole process, so the library never makes it: the main
-!> program does, and the package of Python and FMUs, which bring an OpenBLAS of their own.
+!> program does, and the package of Python and FMUs, which bring an OpenBLAS. Where a process has one of the same name already, the
+!> loader takes that for theirs, and its setting changes.
 !>
 !> OpenBLAS maps one buffer for each thread that calls it at the same time, and, when it is loaded, one for each of its own threads.
 !> If it cannot map one, it tries again without end; a program therefore makes sure of the buffers before the first case.

@@ -23,6 +23,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks" / "three_cam_head.nml"
 VERSIONS = ("2", "3")
 STEPS = 40
+# Of a sentence that the core tells of a step
+CORE_WORDS = b"oil temperature"
 ADJUSTER = ["--set", "operating_point.speed_rpm=600", "--set", "numerics.accuracy=1e-3"]
 
 
@@ -54,16 +56,16 @@ def write(camroller, cmake_prefix, tmp_path_factory):
 class Unit:
     """An instance of an FMU, by names of variables."""
 
-    def __init__(self, path, folder, name="one"):
+    def __init__(self, path, folder, name="one", token=None, messages=None):
         self.description = fmpy.read_model_description(str(path))
         self.numbers = {variable.name: variable.valueReference for variable in self.description.modelVariables}
         if not folder.exists():
             fmpy.extract(str(path), unzipdir=str(folder))
         kind = fmpy.fmi3.FMU3Slave if self.description.fmiVersion == "3.0" else fmpy.fmi2.FMU2Slave
-        self.unit = kind(guid=self.description.guid, unzipDirectory=str(folder), instanceName=name,
+        self.unit = kind(guid=token or self.description.guid, unzipDirectory=str(folder), instanceName=name,
                          modelIdentifier=self.description.coSimulation.modelIdentifier)
         self.is_3 = self.description.fmiVersion == "3.0"
-        self.messages, self.statuses = [], []
+        self.messages, self.statuses = [] if messages is None else messages, []
         self.time = 0.0
         if self.is_3:
             self.unit.instantiate(logMessage=self.hear_3)
@@ -442,6 +444,47 @@ def test_instances_in_threads_give_the_same_bits_as_alone(write, tmp_path, versi
         unit.time = 0.0
         assert work(i) == together[i]
         unit.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_an_instance_with_the_token_of_another_fmu_is_refused(write, tmp_path, version):
+    """Numbers of variables of one description mean something else to the resources of another one."""
+    other = fmpy.read_model_description(str(write(version, ROOT / "decks" / "lash_adjuster.nml", "adjuster", ADJUSTER))).guid
+    for token in (other, fmpy.read_model_description(str(write(version))).guid + "0", "{}"):
+        heard = []
+        with pytest.raises(Exception):
+            Unit(write(version), tmp_path / "unit", token=token, messages=heard)
+        assert len(heard) == 1 and "is not that of the FMU" in heard[0]
+    unit = Unit(write(version), tmp_path / "unit")
+    unit.start()
+    unit.end()
+    table = tmp_path / "unit" / "resources" / "variables.txt"
+    table.write_text(table.read_text().partition("\n")[2])
+    heard = []
+    with pytest.raises(Exception):
+        Unit(write(version), tmp_path / "unit", messages=heard)
+    assert heard == ["resources/variables.txt of the FMU is damaged"]
+
+
+def test_fmus_in_one_process_have_the_core_that_each_brings(write, tmp_path):
+    """One that was made by another build of the same version must not go on with the core of the first one."""
+    first = Unit(write("3"), tmp_path / "3")
+    fmpy.extract(str(write("2")), unzipdir=str(tmp_path / "2"))
+    changed = 0
+    for path in (tmp_path / "2" / "binaries").rglob("*.so*"):
+        assert not path.name.startswith("libcamroller")
+        content = path.read_bytes()
+        changed += content.count(CORE_WORDS)
+        path.write_bytes(content.replace(CORE_WORDS, CORE_WORDS.upper()))
+    assert changed > 0
+    second = Unit(write("2"), tmp_path / "2")
+    for unit, words in ((first, CORE_WORDS), (second, CORE_WORDS.upper())):
+        unit.start()
+        unit.set("oil_temperature", -1.0)
+        with pytest.raises(Exception):
+            unit.step(1e-3)
+        assert words.decode() in unit.messages[-1]
+        unit.unit.freeInstance()
 
 
 @pytest.fixture(scope="module")
