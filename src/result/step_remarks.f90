@@ -9,6 +9,8 @@ module camroller_step_remarks
    use camroller_film, only : groups_t, group_count, group_values, law_table, published_range
    use camroller_film_range, only : group_names, outside_words
    use camroller_film_remarks, only : judge_pressure
+   use camroller_flexible_measures, only : largest_lift
+   use camroller_flexible_sample, only : is_closed
    use camroller_follower_samples, only : extremes_t
    use camroller_heat_remarks, only : judge_oil
    use camroller_kinds, only : wp
@@ -16,6 +18,9 @@ module camroller_step_remarks
    use camroller_number_text, only : append_number, number_text
    use camroller_oil_checks, only : rises_t
    use camroller_remarks, only : remark_t, add_remark, lost_contact, outside_range, rubbing_contact
+   use camroller_train_findings, only : train_findings_t, worst_t
+   use camroller_train_words, only : tell_lower_stop, tell_open_valve, tell_relief, tell_sinking, tell_suction, tell_tension, &
+      & tell_upper_stop
    implicit none
    private
 
@@ -55,7 +60,51 @@ contains
          end if
       end associate
       call judge_pressure(model, extremes%hertz_pressure, remarks)
+      if (allocated(model%flexible)) call judge_train_step(model, extremes%findings%train, remarks)
    end subroutine judge_follower_step
+
+   !> Remarks on a flexible train in a step.
+   subroutine judge_train_step(model, findings, remarks)
+      !> Model of the lobe, with a flexible train
+      type(model_t), intent(in) :: model
+      !> What a host should know of its step
+      type(train_findings_t), intent(in) :: findings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      call tell_tension(model, findings%tension%value, place_of(findings%tension), remarks)
+      if (does_not_close(model, findings)) call tell_open_valve(-findings%closing%value, place_of(findings%closing), remarks)
+      if (allocated(model%flexible%adjuster)) then
+         call tell_upper_stop(model, findings%rise%value, place_of(findings%rise), remarks)
+         call tell_lower_stop(model, -findings%fall%value, place_of(findings%fall), remarks)
+         call tell_sinking(model, -findings%fall%value, place_of(findings%fall), remarks)
+         call tell_suction(-findings%suction%value, place_of(findings%suction), remarks)
+      end if
+      call tell_relief(findings%relief%value, remarks, place_of(findings%relief))
+   end subroutine judge_train_step
+
+   !> Is the valve open opposite full lift, and its cam leaves it closed?
+   function does_not_close(model, findings) result(verdict)
+      !> Model of the lobe, with a flexible train
+      type(model_t), intent(in) :: model
+      !> What a host should know of its step
+      type(train_findings_t), intent(in) :: findings
+      !> Is it?
+      logical :: verdict
+
+      ! In most steps there is no such angle, or the valve is closed
+      verdict = findings%closing%value < 0.0_wp .and. findings%closing%value > -huge(1.0_wp)
+      if (verdict) verdict = is_closed(model, findings%cam_lift%angle, findings%cam_lift%value, largest_lift(model))
+   end function does_not_close
+
+   !> Where the worst was met, in words.
+   pure function place_of(worst) result(text)
+      type(worst_t), intent(in) :: worst
+      !> Its cam angle
+      character(len=len(cam_angle_text(worst%angle, 1))) :: text
+
+      text = cam_angle_text(worst%angle, 1)
+   end function place_of
 
    !> Remarks on the temperature of the oil at both ends of a step.
    subroutine judge_step_oil(case, temperatures, remarks)
