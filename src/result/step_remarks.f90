@@ -12,19 +12,22 @@ module camroller_step_remarks
    use camroller_flexible_measures, only : largest_lift
    use camroller_flexible_sample, only : is_closed
    use camroller_follower_samples, only : extremes_t
+   use camroller_gas, only : usual_pressure, vacuum
    use camroller_heat_remarks, only : judge_oil
    use camroller_kinds, only : wp
+   use camroller_lash_adjuster, only : usual_supply
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text
    use camroller_oil_checks, only : rises_t
-   use camroller_remarks, only : remark_t, add_remark, lost_contact, outside_range, rubbing_contact
+   use camroller_remarks, only : remark_t, add_remark, lost_contact, outside_range, rubbing_contact, &
+      & unusual_gas, unusual_supply
    use camroller_train_findings, only : train_findings_t, worst_t
    use camroller_train_words, only : tell_lower_stop, tell_open_valve, tell_relief, tell_sinking, tell_suction, tell_tension, &
       & tell_upper_stop
    implicit none
    private
 
-   public :: judge_follower_step, judge_step_oil, append_lost, append_outside, append_groups
+   public :: judge_follower_step, judge_step_oil, judge_step_supply, judge_step_gas, append_lost, append_outside, append_groups
 
 contains
 
@@ -126,6 +129,35 @@ contains
          if (.not. any(of_end%kind == of_start(i)%kind)) remarks = [remarks, of_start(i)]
       end do
    end subroutine judge_step_oil
+
+   !> Remark on a supply pressure of a lash adjuster that engines do not have; 0 is that of one that has stood.
+   subroutine judge_step_supply(pressures, remarks)
+      !> Gauge pressures at both ends of a step [Pa]
+      real(wp), intent(in) :: pressures(2)
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: odd
+
+      odd = findloc(pressures > 0.0_wp .and. (pressures < usual_supply(1) .or. pressures > usual_supply(2)), .true., dim=1)
+      if (odd > 0) call add_remark(remarks, unusual_supply, "a supply pressure of "//number_text(pressures(odd), 6)// &
+         & " Pa is unusual: engines have "//number_text(usual_supply(1), 6)//" to "//number_text(usual_supply(2), 6)// &
+         & " Pa above ambient")
+   end subroutine judge_step_supply
+
+   !> Remark on a gas pressure that engines do not have; next to none is part of every cycle.
+   subroutine judge_step_gas(pressures, remarks)
+      !> Gauge pressures at both ends of a step [Pa]
+      real(wp), intent(in) :: pressures(2)
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: odd
+
+      odd = findloc(pressures < vacuum .or. pressures > usual_pressure(2), .true., dim=1)
+      if (odd > 0) call add_remark(remarks, unusual_gas, "a gas pressure of "//number_text(pressures(odd), 6)// &
+         & " Pa is unusual: engines have "//number_text(vacuum, 6)//" to "//number_text(usual_pressure(2), 6)//" Pa above ambient")
+   end subroutine judge_step_gas
 
    !> Append where contact is lost.
    pure subroutine append_lost(text, angle)
