@@ -17,7 +17,7 @@ module camroller_flexible_step
    use camroller_state, only : state_t, cam_force
    use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_roller_inertia
    use camroller_follower_samples, only : extremes_t, widen
-   use camroller_trajectory, only : interpolate_state
+   use camroller_trajectory, only : interpolate_state, release_room
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_sliding, &
       & largest_state
    use camroller_flexible_energy, only : energy_slopes
@@ -71,6 +71,8 @@ contains
          call keep_spin(follower, error)
          if (cam_angle > point%angle .and. .not. allocated(error)) call integrate_piece(follower, cam_angle, error)
       end associate
+      ! Of no use any more, and copied with the follower
+      call release_room(follower%drive%path)
    end subroutine place_train
 
    !> Bring a train to rest.
@@ -130,6 +132,7 @@ contains
       call fill_outcome(follower%model, outcome)
       call add_state_error(follower, cam_angle - first, follower%drive%resolution, outcome)
       if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
+      call release_room(follower%drive%path)
       call check_finite(outcome, follower%point%roller_spin, error)
    end subroutine step_train
 
