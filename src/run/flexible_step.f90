@@ -67,13 +67,31 @@ contains
          call rest_of_train(follower%model, rest, error)
          if (allocated(error)) return
          point%train(:size(rest)) = rest
-         point%angle = cam_angle - modulo(cam_angle, two_pi)
+         point%angle = rest_angle(cam_angle)
          call keep_spin(follower, error)
          if (cam_angle > point%angle .and. .not. allocated(error)) call integrate_piece(follower, cam_angle, error)
       end associate
       ! Of no use any more, and copied with the follower
       call release_room(follower%drive%path)
    end subroutine place_train
+
+   !> Angle of the last whole turn, at which a train starts at rest: the angle itself where it is one but for rounding, be it below
+   !> or above.
+   elemental function rest_angle(cam_angle) result(angle)
+      !> Cam angle [rad]
+      real(wp), intent(in) :: cam_angle
+      !> The angle, not above the cam angle [rad]
+      real(wp) :: angle
+
+      ! Distance over the rounding of the angle, and of the lobe's own, which is half a turn less: whole turns that a host
+      ! multiplies, converts from degrees or takes differences of are off by two or three of it [-]
+      real(wp), parameter :: roundings = 8.0_wp
+      real(wp) :: margin ! [rad]
+
+      margin = roundings*epsilon(1.0_wp)*(abs(cam_angle) + pi)
+      angle = cam_angle
+      if (abs(cam_angle - two_pi*anint(cam_angle/two_pi)) > margin) angle = cam_angle - modulo(cam_angle, two_pi)
+   end function rest_angle
 
    !> Bring a train to rest.
    pure subroutine halt_train(follower)
