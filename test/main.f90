@@ -121,6 +121,7 @@ program main
    use test_saved_simulation, only : collect_saved_simulation
    use test_simulation_faults, only : collect_simulation_faults
    use test_step_remarks, only : collect_step_remarks
+   use test_train_step_remarks, only : collect_train_step_remarks
    use test_shaft_simulation, only : collect_shaft_simulation
    use test_shaft_faults, only : collect_shaft_faults
    use test_simulation_inputs, only : collect_simulation_inputs
@@ -324,6 +325,7 @@ contains
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("shaft_simulation", collect_shaft_simulation), &
          new_testsuite("step_remarks", collect_step_remarks), &
+         new_testsuite("train_step_remarks", collect_train_step_remarks), &
          new_testsuite("shaft_faults", collect_shaft_faults), &
          new_testsuite("simulation", collect_simulation), &
          new_testsuite("saved_simulation", collect_saved_simulation), &

@@ -18,7 +18,7 @@ module camroller_remarks
       & short_contact, shaken_train, creeping_roller, shut_valve, empty_chamber, rigid_contact, liquid_limit, backward_roller, &
       & foreign_speed, untouched_film, oiled_slices, lost_lash, plain_contacts, light_contact, &
       & few_places, held_coefficient, cool_bearings, cool_inlet, missed_hours, far_table, cool_pin, &
-      & spent_friction, thick_seal_oil, outer_asperities, insulated_metal
+      & spent_friction, thick_seal_oil, outer_asperities, insulated_metal, unusual_supply, unusual_gas
 
    !> Kinds, in the order of `remark_names`. Their numbers: part of the cycle [%], part of the cycle [%], error [-], times [-],
    !> force [N], force [N], error [-], error [-], error [-], none, error [-], closure [-], cycles, travel over travel [-], film over
@@ -32,7 +32,8 @@ module camroller_remarks
    !> roughness [-], part of the cycle [%], part of the sinking that is more than the lash [-], none, part of
    !> the cycle [%], miss over the largest [-], none, viscosity over that of the warm oil [-], film over that with heat [-],
    !> error [-], way beyond the points [K], viscosity over that of the warm oil [-], part of the cycle [%], viscosity over that of
-   !> the seal's drag [-], mean gain of a part of the load [-], friction with metal that passes heat on over that without [-]
+   !> the seal's drag [-], mean gain of a part of the load [-], friction with metal that passes heat on over that without [-],
+   !> none for the last two
    integer, parameter :: lost_contact = 1, outside_range = 2, unresolved_slip = 3, standing_entrainment = 4, open_pivot = 5, &
       & pumped_adjuster = 6, missed_accuracy = 7, missed_means = 8, loose_tolerance = 9, missing_profiles = 10, &
       & missed_extremes = 11, no_period = 12, long_period = 13, relieved_spring = 14, film_without_limit = 15, &
@@ -45,7 +46,7 @@ module camroller_remarks
       & liquid_limit = 47, backward_roller = 48, foreign_speed = 49, untouched_film = 50, oiled_slices = 51, lost_lash = 52, &
       & plain_contacts = 53, light_contact = 54, few_places = 55, held_coefficient = 56, cool_bearings = 57, &
       & cool_inlet = 58, missed_hours = 59, far_table = 60, cool_pin = 61, spent_friction = 62, thick_seal_oil = 63, &
-      & outer_asperities = 64, insulated_metal = 65
+      & outer_asperities = 64, insulated_metal = 65, unusual_supply = 66, unusual_gas = 67
    !> What the kinds are called
    character(len=*), parameter :: remark_names(*) = [character(len=name_length) :: "contact lost", "film law out of range", &
       & "slip not resolved", "entrainment passes zero", "pivot joint opens", "adjuster pumps up", "accuracy not reached", &
@@ -64,7 +65,8 @@ module camroller_remarks
       & "group left out of contacts", "film of a light load not solved", "places too far apart", &
       & "boundary law held at its bound", "heat left out of bearings", "heat left out of films", "hours not accurate", &
       & "boundary law far from its points", "heat left out of the pin", "friction of a joint is spent", &
-      & "seal in far thicker oil", "asperities beside the strip", "metal passes no heat on"]
+      & "seal in far thicker oil", "asperities beside the strip", "metal passes no heat on", &
+      & "supply pressure is unusual", "gas pressure is unusual"]
 
    !> One remark
    type :: remark_t

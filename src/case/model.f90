@@ -325,6 +325,8 @@ contains
       call find_name("contact policy", case%contact_policy, contact_policy_names, choice, error)
       if (allocated(error)) return
       model%stops_without_contact = choice == 2
+      ! A lash parts cam and roller in every turn
+      if (allocated(case%dynamics)) model%stops_without_contact = choice == 2 .and. case%dynamics%lash <= 0.0_wp
       call find_name("film law", case%film%law, film_law_names, model%film_law, error)
       if (allocated(error)) return
       if (allocated(case%ehl)) then

@@ -13,6 +13,7 @@ module camroller_deck_table_remarks
    use camroller_dynamics, only : gas_force_t
    use camroller_engine, only : from_firing
    use camroller_error, only : error_t
+   use camroller_gas, only : usual_pressure, vacuum
    use camroller_kinds, only : degree, wp
    use camroller_lift, only : evaluate_lift, given_table, lift_law_t, lift_t, new_lift_law
    use camroller_lift_noise, only : find_lift_noise, find_outlier, find_sharp_ends, lift_noise_t
@@ -37,11 +38,9 @@ module camroller_deck_table_remarks
    !> Part of the largest lift that counts as full lift, which a lift is near to for a degree or two [-]; distance of full lift from
    !> the nose beyond what cams and measurements are off by [deg]
    real(wp), parameter :: full_part = 0.999_wp, usual_offset = 5.0_wp
-   !> Usual largest magnitudes of a gauge pressure: from pulses in a manifold to a truck's engine under full load [Pa]
-   real(wp), parameter :: usual_pressure(2) = [2.0e3_wp, 3.0e7_wp]
-   !> Gauge pressure that nothing is below: a vacuum, and some high weather; gauge pressure that only combustion has; smallest of a
-   !> turn where absolute pressures are given, from a throttled to a supercharged engine [Pa]
-   real(wp), parameter :: vacuum = -1.1e5_wp, of_combustion = 1.0e6_wp, absolute(2) = [0.4e5_wp, 1.6e5_wp]
+   !> Gauge pressure that only combustion has; smallest of a turn where absolute pressures are given, from a throttled to a
+   !> supercharged engine [Pa]
+   real(wp), parameter :: of_combustion = 1.0e6_wp, absolute(2) = [0.4e5_wp, 1.6e5_wp]
    !> Powers of ten between a table's unit and another one; nearer ones first
    integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
 

@@ -8,7 +8,7 @@ module camroller_deck_dynamics
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_schema, only : group_effect, positive, not_negative, from_to, range_t
    use camroller_kinds, only : pi, wp
-   use camroller_lash_adjuster, only : lash_adjuster_t, leak_end_names
+   use camroller_lash_adjuster, only : lash_adjuster_t, leak_end_names, usual_supply
    use camroller_mistakes, only : mistakes_t
    use camroller_number_text, only : number_text
    use camroller_settings, only : get_word, has_group, is_known, is_wrong, settings_t, take
@@ -124,9 +124,8 @@ contains
             & usual=[0.5_wp, 300.0_wp])
          call keys%number("transition_pressure_kPa", positive, "pressure difference below which its flow is laminar", &
             & adjuster%transition_pressure, usual=[0.005_wp, 20.0_wp])
-         ! Pressure of an oil gallery from idling to the relief valve
          call keys%number("supply_pressure_MPa", positive, "pressure of the oil supply above ambient", adjuster%supply_pressure, &
-            & usual=[0.02_wp, 1.0_wp])
+            & usual=1.0e-6_wp*usual_supply)
          call keys%number("air_content", range_t(1.0e-4_wp, 0.5_wp), &
             & "volume of free air over that of oil and air, at ambient pressure", adjuster%air_content, usual=[1.0e-3_wp, 0.2_wp])
          ! Mineral oil, cold to hot

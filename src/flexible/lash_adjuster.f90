@@ -17,6 +17,8 @@ module camroller_lash_adjuster
    character(len=*), parameter :: leak_end_names(*) = [character(len=name_length) :: "feed", "ambient"]
    !> Pressure of the surroundings [Pa]
    real(wp), parameter :: ambient_pressure = 1.0e5_wp
+   !> Gauge pressure of an oil gallery from idling to the relief valve [Pa]
+   real(wp), parameter, public :: usual_supply(2) = [0.02e6_wp, 1.0e6_wp]
    !> Exponent of the air's change of state [-]
    real(wp), parameter :: polytropic = 1.4_wp
 

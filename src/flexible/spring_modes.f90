@@ -9,7 +9,7 @@ module camroller_spring_modes
    private
 
    public :: spring_surge_t, spring_modes_t, most_modes, new_spring_modes, effective_mass, valve_pull, wave_compression, &
-      & mode_energy
+      & most_waves, mode_energy
 
    !> Modes that a spring can have
    integer, parameter :: most_modes = 20
@@ -93,6 +93,18 @@ contains
          ends = [min(ends(1), added), max(ends(2), added)]
       end do
    end function wave_compression
+
+   !> What waves take at most, wherever: all modes together, as at the spring's fixed end.
+   pure function most_waves(modes, amplitudes) result(most)
+      !> The modes, one at least
+      type(spring_modes_t), intent(in) :: modes
+      !> q_n [m]
+      real(wp), intent(in) :: amplitudes(:)
+      !> `sum n pi |q_n|` [m]
+      real(wp) :: most
+
+      most = dot_product(modes%slopes(:, 1), abs(amplitudes))
+   end function most_waves
 
    !> Angular frequency of a mode with both ends held.
    elemental function mode_frequency(n, stiffness, mass) result(frequency)

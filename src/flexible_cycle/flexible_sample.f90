@@ -13,11 +13,11 @@ module camroller_flexible_sample
    use camroller_lash_adjuster, only : lash_adjuster_t, opening_pressure
    use camroller_lift, only : is_at_rest, is_tabulated
    use camroller_model, only : model_t, evaluate_geometry
-   use camroller_spring_modes, only : wave_compression
+   use camroller_spring_modes, only : most_waves, wave_compression
    implicit none
    private
 
-   public :: sample_t, look, is_closed, pivot_force
+   public :: sample_t, look, is_closed, pivot_force, relieved_part
 
    !> Part of the largest lift below which a table's noise may be all that rises [-]
    real(wp), parameter :: noise_part = 1.0e-3_wp
@@ -119,19 +119,54 @@ contains
       !> By number of the measure [unit of the measure]
       real(wp), intent(inout) :: sought(:)
 
-      ! Compression of the whole spring; what waves add to it, at least and at most [m]
-      real(wp) :: compression, added(2)
       integer :: first
 
-      compression = state(at_lift) + model%train%precompression
-      sought(coil_compression) = compression
-      if (model%flexible%modes%count == 0) return
+      if (model%flexible%modes%count == 0) then
+         sought(coil_compression) = state(at_lift) + model%train%precompression
+         return
+      end if
       first = first_mode(model)
-      added = wave_compression(model%flexible%modes, state(first:first + 2*model%flexible%modes%count - 2:2))
-      sought(coil_compression) = max(compression, compression + added(2))
+      call compress_coils(model, state(at_lift), state(first:first + 2*model%flexible%modes%count - 2:2), sought(coil_ratio), &
+         & sought(coil_compression))
       sought(surge_force) = model%train%stiffness*pi*abs(state(first))
-      sought(coil_ratio) = -added(1)/compression
    end subroutine look_at_spring
+
+   !> What waves take from the compression of the spring's coils, and what they add to it.
+   pure subroutine compress_coils(model, lift, amplitudes, ratio, most)
+      !> The model, with modes of the spring
+      type(model_t), intent(in) :: model
+      !> Lift of the valve, amplitudes of the modes [m]
+      real(wp), intent(in) :: lift, amplitudes(:)
+      !> Largest part of the spring's compression that waves take from coils [-]
+      real(wp), intent(out) :: ratio
+      !> Largest compression of a part of the spring, as of all of it [m]
+      real(wp), intent(out) :: most
+
+      ! Compression of the whole spring; what waves add to it, at least and at most [m]
+      real(wp) :: compression, added(2)
+
+      compression = lift + model%train%precompression
+      added = wave_compression(model%flexible%modes, amplitudes)
+      ratio = -added(1)/compression
+      most = max(compression, compression + added(2))
+   end subroutine compress_coils
+
+   !> Largest part of the spring's compression that waves take from coils; 0 where all modes together do not take all of it, which
+   !> is known at once.
+   pure function relieved_part(model, lift, amplitudes) result(part)
+      !> The model, with modes of the spring
+      type(model_t), intent(in) :: model
+      !> Lift of the valve, amplitudes of the modes [m]
+      real(wp), intent(in) :: lift, amplitudes(:)
+      !> The part [-]
+      real(wp) :: part
+
+      real(wp) :: unused ! [m]
+
+      part = 0.0_wp
+      if (most_waves(model%flexible%modes, amplitudes) <= lift + model%train%precompression) return
+      call compress_coils(model, lift, amplitudes, part, unused)
+   end function relieved_part
 
    !> Force in the joint of finger and pivot along the adjuster's axis; negative where the socket would open.
    pure function pivot_force(model, state, now) result(force)

@@ -18,17 +18,15 @@ module camroller_train_remarks
    use camroller_number_text, only : integer_text, number_text
    use camroller_ode_problem, only : counters_t
    use camroller_pump_up, only : event_height, is_pumped_up
-   use camroller_remarks, only : add_remark, bouncing_valve, empty_chamber, long_period, lost_contact, lost_lash, missing_lift, &
-      & no_period, open_pivot, open_valve, pressed_seat, relieved_spring, remark_t, rising_plunger, shut_valve, &
-      & sinking_plunger, stopped_plunger
+   use camroller_remarks, only : add_remark, bouncing_valve, long_period, lost_contact, lost_lash, missing_lift, no_period, &
+      & pressed_seat, remark_t, rising_plunger, shut_valve
    use camroller_train_outlook, only : gas_share
+   use camroller_train_words, only : tell_lower_stop, tell_open_valve, tell_relief, tell_sinking, tell_suction, tell_tension, &
+      & tell_upper_stop
    implicit none
    private
 
    public :: judge_train
-
-   !> Acceleration of free fall [m/s^2]
-   real(wp), parameter :: gravity = 9.81_wp
 
 contains
 
@@ -54,23 +52,14 @@ contains
       if (lost_share > 0.0_wp) then
          text = "cam and roller lose contact "//trim(times_text(solution%mean(losses_of_contact)))//" per cycle, for "// &
             & number_text(100.0_wp*lost_share, 3)//" % of it, at "//speed
-         if (model%stops_without_contact .and. model%flexible%lash <= 0.0_wp) then
+         if (model%stops_without_contact) then
             call raise(error, kind_domain, text//" (contact_policy = 'stop')")
             return
          end if
          if (model%flexible%lash > 0.0_wp) text = text//"; load_factor leaves out the impact that takes up the lash"
          call add_remark(remarks, lost_contact, text, 100.0_wp*lost_share)
       end if
-      ! What its weight, which the model has not, would hold is no tension
-      if (-solution%lowest(smallest_pivot_force) > gravity*model%flexible%finger_mass) then
-         text = "the joint of finger and pivot is in tension"
-         ! A finger that is free in its lash is drawn by its drag alone
-         if (model%flexible%lash <= 0.0_wp) text = text//" for "//number_text(100.0_wp*solution%mean(tension_share), 3)// &
-            & " % of the cycle"
-         text = text//", by up to "//number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//speed// &
-            & "; the model keeps it closed, a real one opens"
-         call add_remark(remarks, open_pivot, text, -solution%lowest(smallest_pivot_force))
-      end if
+      call tell_tension(model, -solution%lowest(smallest_pivot_force), speed, remarks, solution%mean(tension_share))
       if (solution%highest(bounces) > 0.0_wp) then
          call add_remark(remarks, bouncing_valve, "the valve bounces "//trim(times_text(solution%mean(bounces)))// &
             & " per cycle, by up to "//number_text(1.0e6_wp*solution%highest(bounce_height), 3)//" um, after meeting its "// &
@@ -82,14 +71,7 @@ contains
          call judge_plunger(model, solution, speed, remarks)
          call judge_oil(model, solution, speed, remarks)
       end if
-      if (solution%highest(coil_ratio) > 1.0_wp) then
-         call add_remark(remarks, relieved_spring, "waves in the spring take all compression from a part of it, "// &
-            & "up to "//number_text(solution%highest(coil_ratio), 3)//" times what there is; "// &
-            & "a real spring then leaves its seat or its retainer, which is not computed. A part of it is "// &
-            & "compressed by up to "// &
-            & number_text(1.0e3_wp*solution%highest(coil_compression), 4)//" mm, as of the whole spring; with less than that "// &
-            & "to its solid length its coils clash", solution%highest(coil_ratio))
-      end if
+      call tell_relief(solution%highest(coil_ratio), remarks, compression=solution%highest(coil_compression))
    end subroutine judge_train
 
    !> Remark on a lash of which nothing is left, since the closed valve sinks into its seat.
@@ -169,10 +151,11 @@ contains
       real(wp) :: gas
       integer :: i
 
-      if (solution%highest(smallest_lift) > 0.0_wp) call add_remark(remarks, open_valve, "the valve does not close"// &
-         & trim(merge(" in some cycles", "               ", .not. solution%lowest(smallest_lift) > 0.0_wp))//": it stays open "// &
-         & "by at least "//number_text(1.0e3_wp*solution%highest(smallest_lift), 3)//" mm at "//speed, &
-         & solution%highest(smallest_lift))
+      if (solution%lowest(smallest_lift) > 0.0_wp) then
+         call tell_open_valve(solution%highest(smallest_lift), speed, remarks)
+      else
+         call tell_open_valve(solution%highest(smallest_lift), speed, remarks, " in some cycles")
+      end if
       if (.not. allocated(model%gas)) return
       if (solution%highest(closed_load) < solution%highest(largest_load)) return
       gas = 0.0_wp
@@ -198,16 +181,11 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Way below its rest from which on it sinks far: as high as the closing ramps of cams for adjusters, beyond which the valve
-      ! meets its seat at the speed of the flank [m]
-      real(wp), parameter :: far = 1.0e-4_wp
-      ! Way below its rest, largest height above it in the event [m]
-      real(wp) :: sink, height
+      real(wp) :: height ! Largest height above its rest in the event [m]
       character(len=:), allocatable :: text
 
       height = event_height(model, solution)
-      associate (given => model%flexible%adjuster%given, highest => solution%highest(highest_plunger), &
-         & lowest => solution%lowest(lowest_plunger))
+      associate (highest => solution%highest(highest_plunger), lowest => solution%lowest(lowest_plunger))
          if (is_pumped_up(model, solution)) then
             text = "the lash adjuster pumps up: its check valve opens for "// &
                & number_text(100.0_wp*solution%mean(event_check_share), 3)//" % of the cycle while the valve is open, and the "// &
@@ -218,14 +196,9 @@ contains
                & trim(merge("above", "below", height >= 0.0_wp))//" its rest then, at "//speed, &
                & 100.0_wp*solution%mean(event_check_share))
          end if
-         if (highest > given%highest) call add_remark(remarks, stopped_plunger, "the plunger of the lash adjuster reaches its "// &
-            & "upper stop at "//speed//": it rises no further", highest - given%highest)
-         if (lowest < given%lowest) call add_remark(remarks, stopped_plunger, "the plunger of the lash adjuster sinks onto its "// &
-            & "lower stop at "//speed//": the stop carries the train, and no longer the oil", given%lowest - lowest)
-         sink = model%flexible%pivot_place - lowest
-         if (sink > far) call add_remark(remarks, sinking_plunger, "the plunger of the lash adjuster sinks by "// &
-            & number_text(1.0e3_wp*sink, 3)//" mm below its rest at "//speed//", more than a closing ramp is high: the valve "// &
-            & "loses lift and meets its seat early", sink)
+         call tell_upper_stop(model, highest, speed, remarks)
+         call tell_lower_stop(model, lowest, speed, remarks)
+         call tell_sinking(model, lowest, speed, remarks)
       end associate
    end subroutine judge_plunger
 
@@ -240,8 +213,6 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Absolute pressure over that of the surroundings below which the chamber is as good as empty [-]
-      real(wp), parameter :: vacuum = 0.2_wp
       character(len=:), allocatable :: text
       real(wp) :: lowest ! Gauge pressure [Pa]
       integer :: turn
@@ -260,9 +231,7 @@ contains
             lowest = min(lowest, minval(trajectory%state(at_pressure, :trajectory%count)))
          end associate
       end do
-      if (lowest < (vacuum - 1.0_wp)*ambient_pressure) call add_remark(remarks, empty_chamber, "the chamber of the lash "// &
-         & "adjuster is nearly at a vacuum, down to "//number_text(1.0e-2_wp*(ambient_pressure + lowest), 2)//" mbar, at "// &
-         & speed//": its oil gives off air, which is computed by the air's compression alone", -lowest)
+      call tell_suction(lowest, speed, remarks)
    end subroutine judge_oil
 
    !> How often something happens, in words.

@@ -19,6 +19,10 @@ module camroller_fmu_variables
    !> What a variable is for
    integer, parameter :: role_time = 1, role_parameter = 2, role_input = 3, role_output = 4
 
+   !> Where extremes of the torque are looked for
+   character(len=*), parameter :: torque_places = "at angles a degree apart or less; of one cam without bearings, seals and "// &
+      & "drive also between them"
+
    !> A variable
    type :: variable_t
       !> One of the roles
@@ -89,9 +93,9 @@ contains
       call add(role_output, "mean_torque_friction", "N m", "torque for all losses, mean over the step", "mean_torque_friction")
       call add(role_output, "mean_torque_bearings", "N m", "torque for the camshaft bearings, mean over the step", &
          & "mean_torque_bearings")
-      call add(role_output, "smallest_torque_drive", "N m", "smallest torque that drives in the step, at angles a degree apart", &
+      call add(role_output, "smallest_torque_drive", "N m", "smallest torque that drives in the step, "//torque_places, &
          & "smallest_torque_drive")
-      call add(role_output, "largest_torque_drive", "N m", "largest torque that drives in the step, at angles a degree apart", &
+      call add(role_output, "largest_torque_drive", "N m", "largest torque that drives in the step, "//torque_places, &
          & "largest_torque_drive")
       call add(role_output, "estimated_error", "N m", "estimate of the error of mean_torque_drive", "estimated_error")
       do cam = 0, cams

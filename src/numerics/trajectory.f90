@@ -12,7 +12,7 @@ module camroller_trajectory
    implicit none
    private
 
-   public :: trajectory_t, stop_margin, start_trajectory, append_cubic, append_curve, append_straight, append_until, &
+   public :: trajectory_t, stop_margin, start_trajectory, release_room, append_cubic, append_curve, append_straight, append_until, &
       & interpolate_state, curve_state, curve_slope
 
    !> Accepted points, in order of time; at a stop, where rates may jump, two points are two margins apart (`stop_margin`)
@@ -67,6 +67,16 @@ contains
       allocate (trajectory%time(first_room), trajectory%state(components, first_room), &
          & trajectory%rate(components, first_room), trajectory%bends(components, curve_numbers, first_room))
    end subroutine start_trajectory
+
+   !> Empty a trajectory; of its memory no more is kept than what a new one has.
+   pure subroutine release_room(trajectory)
+      !> The trajectory
+      type(trajectory_t), intent(inout) :: trajectory
+
+      trajectory%count = 0
+      if (.not. allocated(trajectory%time)) return
+      if (size(trajectory%time) > first_room) deallocate (trajectory%time, trajectory%state, trajectory%rate, trajectory%bends)
+   end subroutine release_room
 
    !> Append a point, reached by the cubic Hermite curve on the rates at both ends, or linearly.
    pure subroutine append_cubic(trajectory, time, state, rate)

@@ -9,17 +9,25 @@ module camroller_step_remarks
    use camroller_film, only : groups_t, group_count, group_values, law_table, published_range
    use camroller_film_range, only : group_names, outside_words
    use camroller_film_remarks, only : judge_pressure
+   use camroller_flexible_measures, only : largest_lift
+   use camroller_flexible_sample, only : is_closed
    use camroller_follower_samples, only : extremes_t
+   use camroller_gas, only : usual_pressure, vacuum
    use camroller_heat_remarks, only : judge_oil
    use camroller_kinds, only : wp
+   use camroller_lash_adjuster, only : usual_supply
    use camroller_model, only : model_t
    use camroller_number_text, only : append_number, number_text
    use camroller_oil_checks, only : rises_t
-   use camroller_remarks, only : remark_t, add_remark, lost_contact, outside_range, rubbing_contact
+   use camroller_remarks, only : remark_t, add_remark, lost_contact, outside_range, rubbing_contact, &
+      & unusual_gas, unusual_supply
+   use camroller_train_findings, only : train_findings_t, worst_t
+   use camroller_train_words, only : tell_lower_stop, tell_open_valve, tell_relief, tell_sinking, tell_suction, tell_tension, &
+      & tell_upper_stop
    implicit none
    private
 
-   public :: judge_follower_step, judge_step_oil, append_lost, append_outside, append_groups
+   public :: judge_follower_step, judge_step_oil, judge_step_supply, judge_step_gas, append_lost, append_outside, append_groups
 
 contains
 
@@ -55,7 +63,51 @@ contains
          end if
       end associate
       call judge_pressure(model, extremes%hertz_pressure, remarks)
+      if (allocated(model%flexible)) call judge_train_step(model, extremes%findings%train, remarks)
    end subroutine judge_follower_step
+
+   !> Remarks on a flexible train in a step.
+   subroutine judge_train_step(model, findings, remarks)
+      !> Model of the lobe, with a flexible train
+      type(model_t), intent(in) :: model
+      !> What a host should know of its step
+      type(train_findings_t), intent(in) :: findings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      call tell_tension(model, findings%tension%value, place_of(findings%tension), remarks)
+      if (does_not_close(model, findings)) call tell_open_valve(-findings%closing%value, place_of(findings%closing), remarks)
+      if (allocated(model%flexible%adjuster)) then
+         call tell_upper_stop(model, findings%rise%value, place_of(findings%rise), remarks)
+         call tell_lower_stop(model, -findings%fall%value, place_of(findings%fall), remarks)
+         call tell_sinking(model, -findings%fall%value, place_of(findings%fall), remarks)
+         call tell_suction(-findings%suction%value, place_of(findings%suction), remarks)
+      end if
+      call tell_relief(findings%relief%value, remarks, place_of(findings%relief))
+   end subroutine judge_train_step
+
+   !> Is the valve open opposite full lift, and its cam leaves it closed?
+   function does_not_close(model, findings) result(verdict)
+      !> Model of the lobe, with a flexible train
+      type(model_t), intent(in) :: model
+      !> What a host should know of its step
+      type(train_findings_t), intent(in) :: findings
+      !> Is it?
+      logical :: verdict
+
+      ! In most steps there is no such angle, or the valve is closed
+      verdict = findings%closing%value < 0.0_wp .and. findings%closing%value > -huge(1.0_wp)
+      if (verdict) verdict = is_closed(model, findings%cam_lift%angle, findings%cam_lift%value, largest_lift(model))
+   end function does_not_close
+
+   !> Where the worst was met, in words.
+   pure function place_of(worst) result(text)
+      type(worst_t), intent(in) :: worst
+      !> Its cam angle
+      character(len=len(cam_angle_text(worst%angle, 1))) :: text
+
+      text = cam_angle_text(worst%angle, 1)
+   end function place_of
 
    !> Remarks on the temperature of the oil at both ends of a step.
    subroutine judge_step_oil(case, temperatures, remarks)
@@ -77,6 +129,35 @@ contains
          if (.not. any(of_end%kind == of_start(i)%kind)) remarks = [remarks, of_start(i)]
       end do
    end subroutine judge_step_oil
+
+   !> Remark on a supply pressure of a lash adjuster that engines do not have; 0 is that of one that has stood.
+   subroutine judge_step_supply(pressures, remarks)
+      !> Gauge pressures at both ends of a step [Pa]
+      real(wp), intent(in) :: pressures(2)
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: odd
+
+      odd = findloc(pressures > 0.0_wp .and. (pressures < usual_supply(1) .or. pressures > usual_supply(2)), .true., dim=1)
+      if (odd > 0) call add_remark(remarks, unusual_supply, "a supply pressure of "//number_text(pressures(odd), 6)// &
+         & " Pa is unusual: engines have "//number_text(usual_supply(1), 6)//" to "//number_text(usual_supply(2), 6)// &
+         & " Pa above ambient")
+   end subroutine judge_step_supply
+
+   !> Remark on a gas pressure that engines do not have; next to none is part of every cycle.
+   subroutine judge_step_gas(pressures, remarks)
+      !> Gauge pressures at both ends of a step [Pa]
+      real(wp), intent(in) :: pressures(2)
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: odd
+
+      odd = findloc(pressures < vacuum .or. pressures > usual_pressure(2), .true., dim=1)
+      if (odd > 0) call add_remark(remarks, unusual_gas, "a gas pressure of "//number_text(pressures(odd), 6)// &
+         & " Pa is unusual: engines have "//number_text(vacuum, 6)//" to "//number_text(usual_pressure(2), 6)//" Pa above ambient")
+   end subroutine judge_step_gas
 
    !> Append where contact is lost.
    pure subroutine append_lost(text, angle)

@@ -55,8 +55,8 @@ module camroller_follower_step
       !> Estimate of the error of the mean torque that drives [N m]: what the accuracy of the case leaves, not what the inputs
       !> of the host differ from straight lines
       real(wp) :: estimated_error = 0.0_wp
-      !> Temperature of the oil at both ends of the step [K]
-      real(wp) :: oil_temperatures(2) = 0.0_wp
+      !> Inputs at both ends of the step
+      type(inputs_t) :: inputs(2)
       !> State of the follower at the end of the step
       type(state_t) :: state
       !> Is there a step that gave it, and did not fail?

@@ -17,11 +17,10 @@ module camroller_shaft_simulation
    use camroller_shaft, only : bearing_number, needs_turn, shaft_t, new_shaft
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, get_mark, get_point, set_point, get_values, simulation_place, put_simulation_back, &
-      & judge_outcome
+      & judge_common_inputs, judge_outcome
    use camroller_model_mark, only : mixed
    use camroller_remarks, only : remark_t
    use camroller_result, only : quantity_t
-   use camroller_step_remarks, only : judge_step_oil
    use camroller_camshaft_step, only : shaft_outcome_t, step_room_t, make_room, add_up
    implicit none
    private
@@ -380,7 +379,7 @@ contains
          remarks = [remarks, of_cam]
          deallocate (of_cam)
       end do
-      call judge_step_oil(shaft%case, outcome%followers(1)%oil_temperatures, remarks)
+      call judge_common_inputs(shaft%case, outcome%followers(1), remarks)
       if (allocated(outcome%bearings)) call judge_step_bearings(shaft%shaft, outcome%bearings, remarks)
    end subroutine list_shaft_remarks
 

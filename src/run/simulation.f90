@@ -26,14 +26,15 @@ module camroller_simulation
    use camroller_remarks, only : remark_t
    use camroller_result, only : quantity_t
    use camroller_run, only : build_model
-   use camroller_step_remarks, only : judge_follower_step, judge_step_oil
+   use camroller_step_remarks, only : judge_follower_step, judge_step_gas, judge_step_oil, judge_step_supply
    implicit none
    private
 
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    public :: prepare_simulation, place_simulation, check_angle, check_step, has_films, simulation_place, put_simulation_back
    public :: get_point, set_point, get_lobe, get_mark, get_values, is_started
-   public :: simulation_angle, simulation_series, simulation_values, list_step_remarks, judge_outcome
+   public :: simulation_angle, simulation_series, simulation_values, list_step_remarks, judge_outcome, &
+      & judge_common_inputs
 
    !> A follower between two steps
    type :: simulation_t
@@ -238,7 +239,7 @@ contains
       else
          call step_follower(simulation%follower, cam_angle, start, finish, outcome, error, nodes)
       end if
-      outcome%oil_temperatures = [start%oil_temperature, finish%oil_temperature]
+      outcome%inputs = [start, finish]
       outcome%is_of_step = .not. allocated(error)
       if (outcome%is_of_step) return
       if (allocated(kept)) then
@@ -358,13 +359,13 @@ contains
       type(case_t), intent(in) :: case
       !> What its last step gave; without a step there are no remarks
       type(outcome_t), intent(in) :: outcome
-      !> The remarks, one of each kind at most
+      !> The remarks, one of each kind at most but for a plunger at both of its stops
       type(remark_t), allocatable, intent(out) :: remarks(:)
 
       allocate (remarks(0))
       if (.not. outcome%is_of_step) return
       call judge_outcome(simulation, outcome, remarks)
-      call judge_step_oil(case, outcome%oil_temperatures, remarks)
+      call judge_common_inputs(case, outcome, remarks)
    end subroutine list_step_remarks
 
    !> Remarks on the numbers of a follower's step.
@@ -377,7 +378,21 @@ contains
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       call judge_follower_step(simulation%follower%model, outcome%extremes, remarks)
+      if (outcome%inputs(1)%has_pressure) call judge_step_gas(outcome%inputs%gas_pressure, remarks)
    end subroutine judge_outcome
+
+   !> Remarks on the inputs that all followers of a step have.
+   subroutine judge_common_inputs(case, outcome, remarks)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> What the step of a follower gave
+      type(outcome_t), intent(in) :: outcome
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      call judge_step_oil(case, outcome%inputs%oil_temperature, remarks)
+      if (outcome%inputs(1)%has_supply) call judge_step_supply(outcome%inputs%supply_pressure, remarks)
+   end subroutine judge_common_inputs
 
    !> Values of the series of one follower at the end of its last step.
    subroutine get_values(simulation, case, state, values)

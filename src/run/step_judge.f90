@@ -9,7 +9,7 @@ module camroller_step_judge
    use camroller_cycle, only : cycle_t, state_at
    use camroller_engine, only : write_speed
    use camroller_film, only : groups_t, is_in_range
-   use camroller_findings, only : is_lost, range_groups
+   use camroller_findings, only : range_groups
    use camroller_model, only : model_t
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t
@@ -71,7 +71,7 @@ contains
 
       is_forbidden = .false.
       if (.not. state%contact%is_touching) then
-         is_forbidden = model%stops_without_contact .and. is_lost(model, state)
+         is_forbidden = model%stops_without_contact
       else if (model%stops_outside_range) then
          groups = range_groups(model, state)
          is_forbidden = .not. is_in_range(model%film_law, groups, model%film_table)

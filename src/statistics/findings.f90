@@ -1,5 +1,5 @@
 !> What a host should know of a step of a follower beside its numbers: contact that is lost, a film law outside its published range,
-!> a film that is next to nothing beside the roughness.
+!> a film that is next to nothing beside the roughness, a flexible train that fails.
 !>
 !> In: model, states at the points that the means of a step are made of. Out: `findings_t`, from which `step_remarks` makes words.
 module camroller_findings
@@ -8,10 +8,11 @@ module camroller_findings
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_state, only : state_t
+   use camroller_train_findings, only : train_findings_t, note_train, join_trains
    implicit none
    private
 
-   public :: findings_t, note_findings, join_findings, is_lost, range_groups
+   public :: findings_t, note_findings, join_findings, range_groups
 
    !> Findings at the points evaluated; angles are from full lift
    type :: findings_t
@@ -23,6 +24,8 @@ module camroller_findings
       type(groups_t) :: outside_groups
       !> Smallest film over the roughness by a law for smooth surfaces; huge without one [-]; its cam angle [rad]
       real(wp) :: film_ratio = huge(1.0_wp), film_ratio_angle = 0.0_wp
+      !> Of a flexible train
+      type(train_findings_t) :: train
    end type findings_t
 
 contains
@@ -40,6 +43,7 @@ contains
 
       type(groups_t) :: groups
 
+      if (allocated(model%flexible)) call note_train(findings%train, model, state, angle)
       if (.not. state%contact%is_touching) then
          if (findings%is_lost) return
          findings%is_lost = is_lost(model, state)
@@ -66,6 +70,7 @@ contains
       type(findings_t) :: both
 
       both = one
+      both%train = join_trains(one%train, next%train)
       if (next%is_lost .and. .not. one%is_lost) then
          both%is_lost = .true.
          both%lost_angle = next%lost_angle
@@ -80,7 +85,8 @@ contains
       both%film_ratio_angle = next%film_ratio_angle
    end function join_findings
 
-   !> Is contact lost in a state? With a lash there is none on the base circle.
+   !> Is contact lost in a state? With a lash there is none until the cam has taken it up: the rigid train's lift is that of a
+   !> train without lash.
    pure function is_lost(model, state) result(verdict)
       !> Model of the lobe
       type(model_t), intent(in) :: model
@@ -90,7 +96,10 @@ contains
       logical :: verdict
 
       verdict = .not. state%contact%is_touching
-      if (verdict .and. allocated(model%flexible)) verdict = model%flexible%lash <= 0.0_wp
+      if (.not. (verdict .and. allocated(model%flexible))) return
+      associate (lash => model%flexible%lash)
+         if (lash > 0.0_wp) verdict = state%position%lift - state%flexible%lift_error > lash
+      end associate
    end function is_lost
 
    !> Groups by which the film law's range is judged.

@@ -11,6 +11,11 @@ module camroller_gas
 
    public :: gas_law_t, new_gas_law, give_pressure, gas_force, gas_force_slope
 
+   !> Usual largest magnitudes of a gauge pressure: from pulses in a manifold to a truck's engine under full load [Pa]
+   real(wp), parameter, public :: usual_pressure(2) = [2.0e3_wp, 3.0e7_wp]
+   !> Gauge pressure that nothing is below: a vacuum, and some high weather [Pa]
+   real(wp), parameter, public :: vacuum = -1.1e5_wp
+
    !> Pressure table ready for evaluation
    type :: gas_law_t
       !> Pressure over the cam angle [Pa over rad]

@@ -5,6 +5,11 @@ module test_flexible_host
    use camroller, only : wp, pi, two_pi, degree, error_t, case_t, simulation_t, outcome_t, inputs_t, result_t, &
       & shaft_simulation_t, shaft_outcome_t, kind_convergence, kind_usage, run_case, get_summary, start_simulation, advance, halt, &
       & start_shaft, advance_shaft
+   use camroller_accuracy, only : resolve_numerics
+   use camroller_cycle_start, only : choose_start
+   use camroller_flexible_step, only : place_train, step_train
+   use camroller_follower_step, only : follower_t
+   use camroller_run, only : build_model
    use camroller_torque_list, only : of_bearings
    use closeness, only : check_close, has_failed
    use deck_cases, only : get_deck_case
@@ -25,6 +30,8 @@ contains
          new_unittest("a run-up from 600 to 4000 rev/min in a second loses contact and goes on", test_run_up), &
          new_unittest("at 1 rev/min the train follows its cam, and after a halt it starts from rest", test_slow), &
          new_unittest("a step that fails leaves the train as it was; impossible inputs are refused", test_failure), &
+         new_unittest("a train starts at rest at every whole turn, however it is rounded", test_whole_turns), &
+         new_unittest("a follower keeps no more memory after a long start or step than after a short one", test_memory), &
          new_unittest("a shaft with one cam gives the bits of its follower", test_shaft), &
          new_unittest("a head of three cams on their bearings becomes periodic with the torques of a run", test_head), &
          new_unittest("the estimated error of a step bounds that of the bearings of trains that vibrate", test_bearing_error) &
@@ -172,6 +179,84 @@ contains
       if (allocated(error)) return
       call check(error, failure%kind == kind_usage .and. index(failure%message, word) > 0, failure%message)
    end subroutine check_usage
+
+   !> Whole turns as a host may come to them: multiplied, from degrees, from seconds at 17 turns a second. With this speed the first
+   !> turn of a train that has turned once already takes another torque by a tenth.
+   subroutine test_whole_turns(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(simulation_t) :: follower
+      type(outcome_t) :: outcome
+      type(inputs_t) :: inputs
+      type(error_t), allocatable :: failure
+      ! Cam angles of a whole turn [rad]; mean torque of the turn after it, and after none [N m]
+      real(wp) :: angles(3), torque, first
+      integer :: i, k
+
+      call get_deck_case("decks/lash_adjuster.nml", the_case, failure, "operating_point.speed_rpm=2200")
+      if (has_failed(failure, error)) return
+      inputs = steady(the_case)
+      first = 0.0_wp
+      do k = 0, 23
+         angles = [k*two_pi, 360.0_wp*k*degree, (k/17.0_wp)*(17.0_wp*two_pi)]
+         do i = 1, size(angles)
+            call start_simulation(follower, the_case, angles(i), failure)
+            if (.not. allocated(failure)) call advance(follower, angles(i) + 0.5_wp*two_pi, inputs, inputs, outcome, failure)
+            if (has_failed(failure, error)) return
+            torque = outcome%mean_torque_drive
+            if (k == 0) first = torque
+            ! Angles are rounded otherwise in each turn, and the integration is as accurate as the case asks for
+            call check_close(error, torque, first, 1.0e-3_wp, "torque of the first half turn")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_whole_turns
+
+   !> What is copied with a follower beside its model is what its integration works with. A turn has thousands of points, of 1.2 kB
+   !> each, which are of no use once their means are taken.
+   subroutine test_memory(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Sixty-four points and some [B]
+      integer, parameter :: most = 100000
+      type(case_t) :: the_case
+      type(follower_t), target :: follower
+      type(outcome_t) :: outcome
+      type(inputs_t) :: inputs
+      type(error_t), allocatable :: failure
+      ! Not needed: an angle [rad], sliding speeds [m/s]
+      real(wp) :: angle, sliding_speed, least
+      integer :: evaluations
+
+      call get_deck_case("decks/lash_adjuster.nml", the_case, failure, "operating_point.speed_rpm=2200")
+      if (.not. allocated(failure)) call build_model(the_case, 1, follower%model, failure)
+      if (has_failed(failure, error)) return
+      follower%given = the_case%numerics
+      follower%numerics = resolve_numerics(the_case%numerics)
+      follower%point%oil_temperature = the_case%operating_point%oil_temperature
+      evaluations = 0
+      call choose_start(follower%model, angle, sliding_speed, follower%point%scale, least, evaluations)
+      call place_train(follower, 6.0_wp, failure)
+      if (has_failed(failure, error)) return
+      call check(error, room_of(follower) < most, "memory after a start")
+      if (allocated(error)) return
+      inputs = steady(the_case)
+      call step_train(follower, 6.0_wp + two_pi, inputs, inputs, outcome, failure)
+      if (has_failed(failure, error)) return
+      call check(error, room_of(follower) < most, "memory after a step of a turn")
+   end subroutine test_memory
+
+   !> Memory of the path that a follower keeps.
+   function room_of(follower) result(bytes)
+      type(follower_t), intent(in) :: follower
+      !> The memory [B]
+      integer :: bytes
+
+      bytes = 0
+      associate (path => follower%drive%path)
+         if (allocated(path%time)) bytes = storage_size(path%time)/8*(size(path%time) + size(path%state) + size(path%rate) &
+            & + size(path%bends))
+      end associate
+   end function room_of
 
    subroutine test_shaft(error)
       type(error_type), allocatable, intent(out) :: error

@@ -6,7 +6,7 @@ module test_step_remarks
       & list_step_remarks, list_shaft_remarks
    use camroller_kinds, only : celsius_zero, degree
    use camroller_remarks, only : beyond_pressure_law, far_temperature, lost_contact, outside_range, rubbing_bearing, &
-      & rubbing_contact, yielding_surface
+      & rubbing_contact, unusual_gas, unusual_supply, yielding_surface
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case
    use closeness, only : has_failed
@@ -28,6 +28,7 @@ contains
          new_unittest("steps of a turn have remarks of the kinds that the run has", test_kinds), &
          new_unittest("a long step tells of what is lost in any of its pieces", test_long_step), &
          new_unittest("oil far from its points is told of at either end of a step, and no longer than it is there", test_oil), &
+         new_unittest("pressures from a host that no engine has are told of, and those of every cycle are not", test_pressures), &
          new_unittest("the range of a law for the film's own load is judged by that load in steps too", test_film_load) &
          ]
    end subroutine collect_step_remarks
@@ -153,6 +154,44 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_oil
+
+   !> Pressures in bar or MPa given for pascals, and the other way round, beside those of an engine that stands, idles and fires.
+   subroutine test_pressures(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Gauge pressures [Pa], and which of them are unusual
+      real(wp), parameter :: supply(*) = [0.0_wp, 2.0e4_wp, 1.0e6_wp, 2.0_wp, 0.2_wp, 2.0e8_wp]
+      real(wp), parameter :: gas(*) = [0.0_wp, -9.0e4_wp, 2.5e7_wp, 6.0_wp, -5.0e5_wp, 1.0e9_wp]
+      logical, parameter :: is_odd(6, 2) = reshape([.false., .false., .false., .true., .true., .true., .false., .false., .false., &
+         & .false., .true., .true.], [6, 2])
+      type(case_t) :: cases(2)
+      type(simulation_t) :: follower
+      type(outcome_t) :: outcome
+      type(remark_t), allocatable :: remarks(:)
+      type(inputs_t) :: inputs(2)
+      type(error_t), allocatable :: failure
+      integer :: i, k
+
+      call get_deck_case("decks/lash_adjuster.nml", cases(1), failure)
+      if (.not. allocated(failure)) call get_deck_case("decks/three_cam_head.nml", cases(2), failure)
+      if (has_failed(failure, error)) return
+      do k = 1, 2
+         do i = 1, size(supply)
+            inputs = inputs_t(speed=cases(k)%operating_point%speed, oil_temperature=cases(k)%operating_point%oil_temperature)
+            inputs%has_supply = k == 1
+            inputs%has_pressure = k == 2
+            ! At one end of the step or at both
+            if (k == 1) inputs%supply_pressure = [merge(supply(i), 2.0e5_wp, modulo(i, 2) == 1), supply(i)]
+            if (k == 2) inputs%gas_pressure = [gas(i), merge(gas(i), 0.0_wp, modulo(i, 2) == 1)]
+            call start_simulation(follower, cases(k), 0.0_wp, failure)
+            if (.not. allocated(failure)) call advance(follower, 0.01_wp*degree, inputs(1), inputs(2), outcome, failure)
+            if (has_failed(failure, error)) return
+            call list_step_remarks(follower, cases(k), outcome, remarks)
+            call check(error, any(remarks%kind == merge(unusual_supply, unusual_gas, k == 1)) .eqv. is_odd(i, k), &
+               & "pressures of a host")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_pressures
 
    !> Rough surfaces take a tenth of the load of a short roller at the nose: W* of the whole load is above the range of Dowson and
    !> Higginson's law, that of the film's load within it, and the law is one for the film's load.
