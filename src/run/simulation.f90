@@ -377,8 +377,12 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
+      real(wp) :: pressures(2) ! at both ends [Pa]
+
       call judge_follower_step(simulation%follower%model, outcome%extremes, remarks)
-      if (outcome%inputs(1)%has_pressure) call judge_step_gas(outcome%inputs%gas_pressure, remarks)
+      if (.not. outcome%inputs(1)%has_pressure) return
+      pressures = outcome%inputs%gas_pressure
+      call judge_step_gas(pressures, remarks)
    end subroutine judge_outcome
 
    !> Remarks on the inputs that all followers of a step have.
@@ -390,8 +394,14 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      call judge_step_oil(case, outcome%inputs%oil_temperature, remarks)
-      if (outcome%inputs(1)%has_supply) call judge_step_supply(outcome%inputs%supply_pressure, remarks)
+      ! Temperature [K] and pressure [Pa] at both ends
+      real(wp) :: temperatures(2), pressures(2)
+
+      temperatures = outcome%inputs%oil_temperature
+      call judge_step_oil(case, temperatures, remarks)
+      if (.not. outcome%inputs(1)%has_supply) return
+      pressures = outcome%inputs%supply_pressure
+      call judge_step_supply(pressures, remarks)
    end subroutine judge_common_inputs
 
    !> Values of the series of one follower at the end of its last step.

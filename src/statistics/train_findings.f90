@@ -34,8 +34,8 @@ module camroller_train_findings
       type(worst_t) :: closing, cam_lift
    end type train_findings_t
 
-   !> Part of the turn, about the angle opposite full lift, in which a valve is looked at: a bounce of one that does close is over
-   !> by then [-]
+   !> Part of the turn, about the angle opposite full lift, in which a valve is looked at: bounces of one that does close are over
+   !> by then, but at speeds at which it hardly closes at all [-]
    real(wp), parameter :: opposite_part = 0.125_wp
 
 contains
