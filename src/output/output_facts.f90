@@ -124,10 +124,10 @@ contains
          end do
          call finish("the worst remark of the kind")
          if (.not. allocated(error)) call create_integers(group, "worst_case", shape(groups), dataset, error)
-         if (.not. allocated(error)) call write_integers(dataset, groups%case_number - 1, error)
+         if (.not. allocated(error)) call write_integers(dataset, [(groups(i)%case_number - 1, i=1, size(groups))], error)
          call finish("case of the worst remark, from 0")
          if (.not. allocated(error)) call create_integers(group, "cases", shape(groups), dataset, error)
-         if (.not. allocated(error)) call write_integers(dataset, groups%cases, error)
+         if (.not. allocated(error)) call write_integers(dataset, [(groups(i)%cases, i=1, size(groups))], error)
          call finish("number of cases with such a remark")
       end associate
       call close_object(axis)
