@@ -118,8 +118,8 @@ contains
       end if
       if (.not. is_compared) return
       friction = scalar_of(result, "mean_torque_friction")
-      ! The accuracy of each, and what the steps say of themselves beyond that
-      allowed = 2.0_wp*accuracy*friction + turn%estimated_error
+      ! The accuracy of each, or the error that the run says its means have, and what the steps say of themselves beyond that
+      allowed = (accuracy + max(accuracy, scalar_of(result, "estimated_error_of_means")))*friction + turn%estimated_error
       difference = abs(turn%drive - scalar_of(result, "mean_torque_drive"))
       write (buffer, "(a, 2es10.2)") "drive torque differs by, over friction, allowed", [difference, allowed]/friction
       if (.not. difference <= allowed) trouble = trim(buffer)
