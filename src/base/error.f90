@@ -8,7 +8,7 @@ module camroller_error
    private
 
    public :: error_t, raise, add_context
-   public :: cause_unknown, cause_several_balances, cause_sudden_loss
+   public :: cause_unknown, cause_several_balances
    public :: kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_difference, kind_unfinished, &
       & kind_memory, kind_internal
 
@@ -35,8 +35,6 @@ module camroller_error
    integer, parameter :: cause_unknown = 0
    !> A cycle passes a place where the finger is in balance at several loads for one sliding speed
    integer, parameter :: cause_several_balances = 1
-   !> A cycle passes a place where friction lifts the roller off its cam at once, not by and by
-   integer, parameter :: cause_sudden_loss = 2
 
    !> One error: allocated only where something went wrong
    type :: error_t

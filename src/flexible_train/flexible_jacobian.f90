@@ -265,7 +265,7 @@ contains
 
       ! Logarithmic changes of radius and entrainment; changes of sliding speed and relative spin [over the unit of the variable]
       real(wp) :: radius(variables), entrainment(variables), speed(variables), spin(variables)
-      ! Their slopes: traction, rolling resistance by its law, bearing torque
+      ! Their slopes: traction, rolling resistance, bearing torque
       type(slopes_t) :: slopes(6)
       integer :: i, count
 
@@ -292,9 +292,7 @@ contains
          do i = 1, variables
             associate (motion => [follow%load(i)/contact%load, entrainment(i), radius(i), speed(i), spin(i), turns%nearest(i)])
                traction(i) = sum(slopes(:count)%traction*motion(:count))
-               ! `follow_contact` takes the resistance that is there for the law's own
-               rolling(i) = now%rolling_by_law*sum(slopes(:count)%rolling_resistance*motion(:count)) &
-                  & + now%rolling_by_load*follow%load(i)
+               rolling(i) = sum(slopes(:count)%rolling_resistance*motion(:count))
                follow%bearing(i) = sum(slopes(:count)%bearing_torque*motion(:count))
             end associate
             follow%tangential(i) = traction(i) + rolling(i)*now%parts%rolling_part &

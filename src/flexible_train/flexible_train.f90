@@ -69,8 +69,6 @@ module camroller_flexible_train
       type(parts_t) :: parts
       !> Cam and roller, pad, seat; lower and upper stop of the plunger
       type(push_t) :: cam, pad, seat, stops(2)
-      !> Derivatives of the rolling resistance: of its logarithm over that of its law's; over the load [-]
-      real(wp) :: rolling_by_law = 1.0_wp, rolling_by_load = 0.0_wp
       !> Cosine and sine of gamma + chi [-]
       real(wp) :: pad_cosine, pad_sine
       !> Cylinder pressure times valve area [N]
@@ -232,7 +230,6 @@ contains
          call prepare_contact(model, touch%position, contact, resolution%forces, now%setting, &
             & resolution=resolution%sliding_speed)
          call evaluate_contact(model, touch%position, now%setting, cam%force, contact, now%parts, change)
-         call limit_rolling(now)
       end associate
    end subroutine set_contact
 
@@ -257,25 +254,6 @@ contains
       contact%length = model%contact_width
       call set_surfaces(model, touch%position, contact)
    end subroutine set_surface_speeds
-
-   !> Rolling resistance below the load: the law's root of the load has an infinite slope where contact is lost and returns.
-   !> Resistance of a tenth of the load is changed by 3e-5 of it.
-   pure subroutine limit_rolling(now)
-      !> In: contact; out: with `F_r W/(F_r^4 + W^4)^(1/4)` for `F_r`
-      type(flexible_state_t), intent(inout) :: now
-
-      ! Resistance over the load, what is left of it [-]
-      real(wp) :: ratio, share
-
-      associate (contact => now%contact)
-         ratio = contact%rolling_resistance/contact%load
-         share = 1.0_wp/sqrt(sqrt(1.0_wp + ratio**4))
-         now%rolling_by_law = share**4
-         now%rolling_by_load = (ratio*share)**5
-         contact%rolling_resistance = contact%rolling_resistance*share
-         contact%tangential_force = contact%traction + contact%rolling_resistance*now%parts%rolling_part
-      end associate
-   end subroutine limit_rolling
 
    !> Pad, seat, gas, guide and spring.
    pure subroutine set_valve_forces(model, angle, state, now)

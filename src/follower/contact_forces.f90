@@ -335,12 +335,34 @@ contains
          & position%equivalent_radius, lengths, model%oil%pressure_viscosity, contact%rolling_resistance, &
          & parts%rolling_load_slope)
       parts%rolling_speed_slope = resistance_speed_slope(model%rolling_law, parts%rolling_load_slope)
+      call limit_rolling(contact, parts)
       contact%rolling_resistance = sign(contact%rolling_resistance, contact%entrainment_speed)
       parts%rolling_part = 2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp
       contact%tangential_force = contact%traction + contact%rolling_resistance*parts%rolling_part
       contact%bearing_torque = setting%bearing_arm*load + contact%bearing_drag
       if (has_curved_bearing(model)) call load_bearing(model, contact, parts)
    end subroutine evaluate_contact
+
+   !> Rolling resistance held by the load, `F W/(F^8 + W^8)^(1/8)`. Its laws go with a root of the load at most: their slope has no
+   !> limit where the load tends to zero, and their resistance would then lift the roller off at once. Resistance below a hundredth of
+   !> the load stays as it is to the last bit, a tenth of the load is changed by 1e-9 of it. Our own.
+   pure subroutine limit_rolling(contact, parts)
+      !> State of the contact; in: with the size of the resistance by its law
+      type(contact_t), intent(inout) :: contact
+      !> Gets what slopes are made of
+      type(parts_t), intent(inout) :: parts
+
+      ! The smaller and the larger of resistance and load [N]; eighth power of their ratio [-]
+      real(wp) :: small, large, power
+
+      small = min(contact%rolling_resistance, contact%load)
+      large = max(contact%rolling_resistance, contact%load)
+      power = (((small/large)**2)**2)**2
+      parts%rolling_held = 0.0_wp
+      if (contact%rolling_resistance < contact%load .and. power < epsilon(1.0_wp)) return
+      parts%rolling_held = merge(power, 1.0_wp, contact%rolling_resistance < contact%load)/(1.0_wp + power)
+      contact%rolling_resistance = small/sqrt(sqrt(sqrt(1.0_wp + power)))
+   end subroutine limit_rolling
 
    !> Torque of a bearing where it is not in proportion to the load.
    pure subroutine load_bearing(model, contact, parts)
@@ -421,7 +443,7 @@ contains
       if (model%rolling_law == rolling_biboulet_houpert) rolling = change%film_load
       rolling = motion%radius + resistance_length_slope(model%rolling_law, parts%rolling_load_slope, lengths) &
          & + parts%rolling_load_slope*rolling + parts%rolling_speed_slope*(motion%entrainment - motion%radius)
-      slopes%rolling_resistance = contact%rolling_resistance*rolling
+      slopes%rolling_resistance = contact%rolling_resistance*(rolling + parts%rolling_held*(motion%load - rolling))
       slopes%tangential_force = slopes%traction + slopes%rolling_resistance*parts%rolling_part &
          & + contact%rolling_resistance*(parts%rolling_part + 1.0_wp)*motion%radius
       slopes%bearing_torque = (contact%bearing_torque - contact%bearing_drag)*motion%load

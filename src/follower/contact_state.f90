@@ -113,8 +113,9 @@ module camroller_contact_state
       type(boundary_friction_t) :: boundary
       !> Heat, where the case has it
       type(heat_slopes_t) :: heat
-      !> Logarithmic slopes of the rolling resistance over load and speed group [-]
-      real(wp) :: rolling_load_slope, rolling_speed_slope
+      !> Logarithmic slopes of the rolling resistance by its law over load and speed group; part in which its limit, the load, holds
+      !> it: it follows the load by this part and the law by the rest [-]
+      real(wp) :: rolling_load_slope, rolling_speed_slope, rolling_held
       !> Derivatives of the logarithms of the contact's lengths over ln(load) and ln(radius) [-]
       type(line_lengths_t) :: lengths_by_load, lengths_by_radius
       !> 2 R/r_R - 1 [-]

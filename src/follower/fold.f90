@@ -1,14 +1,13 @@
 !> Diagnosis of a cycle that could not be integrated: cam angles at which the equilibrium of the finger has several loads for one
-!> sliding speed (a fold), or at which friction lifts the roller off its cam at once.
+!> sliding speed (a fold).
 !>
 !> In: model, cam angle. Out: whether there are such sliding speeds, and a sentence for the error message. Where friction presses
 !> the roller onto the cam, friction raises the load, the load raises the oil's viscosity, and the viscosity raises friction.
 !> Where this feedback exceeds one, load and traction jump from one equilibrium to another, and no continuous solution for the
-!> spin exists. Nor does one where friction lifts the roller and a part of it, the rolling resistance by the fit of Goksem and
-!> Hargreaves, is still there at the last of the load.
+!> spin exists.
 module camroller_fold
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, kind_convergence, cause_several_balances, cause_sudden_loss
+   use camroller_error, only : error_t, kind_convergence, cause_several_balances
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -16,8 +15,7 @@ module camroller_fold
    use camroller_joint_forces, only : finger_moment, contact_moment, has_pivot_friction, set_pivot_forces
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, set_speeds, prepare_contact, evaluate_contact
-   use camroller_state, only : evaluate_loading, evaluate_state, state_t
-   use camroller_traction, only : rolling_goksem_hargreaves
+   use camroller_state, only : evaluate_loading
    implicit none
    private
 
@@ -53,39 +51,8 @@ contains
          error%cause = cause_several_balances
          error%message = error%message//"; for one sliding speed the finger is in balance there at several loads: friction "// &
             & "raises the load, the load the oil's viscosity, and that the friction"
-      else if (is_lost_at_once(model, angle, largest)) then
-         error%cause = cause_sudden_loss
-         error%message = error%message//"; friction lifts the roller off the cam there, and rolling resistance by "// &
-            & "'goksem_hargreaves', a fit to elastic contacts, does not vanish with the load and ends with a jump; take "// &
-            & "traction.rolling_law 'biboulet_houpert'"
       end if
    end subroutine explain_end
-
-   !> Is there a sliding speed at which friction lifts the roller off, with a rolling resistance that hardly falls with the load?
-   function is_lost_at_once(model, angle, largest) result(verdict)
-      type(model_t), intent(in) :: model
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Largest sliding speed [m/s]
-      real(wp), intent(in) :: largest
-      !> Is there one?
-      logical :: verdict
-
-      ! Fractions of the largest sliding speed that are tried, on both sides
-      integer, parameter :: parts = 16
-      type(state_t) :: state
-      integer :: i, status
-
-      verdict = .false.
-      if (model%rolling_law /= rolling_goksem_hargreaves .or. .not. model%is_consistent) return
-      do i = -parts, parts
-         call evaluate_state(model, angle, largest*i/parts, state, status)
-         if (status /= 0) cycle
-         if (.not. contact_moment(model, state%position, state%moments) > 0.0_wp) return
-         verdict = .not. state%contact%is_touching
-         if (verdict) return
-      end do
-   end function is_lost_at_once
 
    !> Is there a sliding speed at which the finger is in balance at several loads?
    function has_fold(model, angle, largest) result(verdict)

@@ -242,7 +242,7 @@ class Point:
         F_t = (1 - A_r / area) * limit * math.tanh(newtonian / limit) \
             + t.boundary_friction * W_a * math.tanh(V_s / t.mobilising_speed)
         F_r = laws.rolling_biboulet(self.eta0, V_e, t.E, R, W - W_a, t.width)
-        F_r *= W / (F_r**4 + W**4)**0.25
+        F_r *= W / (F_r**8 + W**8)**0.125
         return F_t, F_r, t.needle_friction * W * self.r_p * math.tanh(omega_rel / (0.01 * self.omega))
 
     def oil(self, p):

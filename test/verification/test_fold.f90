@@ -2,14 +2,13 @@
 module test_fold
    use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
    use camroller_kinds, only : wp, degree
-   use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck, cause_unknown, cause_several_balances, &
-      & cause_sudden_loss
+   use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck, cause_unknown, cause_several_balances
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_run, only : build_models
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
    use camroller_fold, only : has_fold, explain_end
-   use reference_cases, only : point_speeds, point_viscosities, set_point, thesis_case
+   use reference_cases, only : thesis_case
    use random_decks, only : random_t, start_random, random_deck
    implicit none
    private
@@ -30,8 +29,7 @@ contains
 
       testsuite = [ &
          new_unittest("several balanced loads at one sliding speed are detected, and an ordinary contact has one", test_seen), &
-         new_unittest("an error message names several balances as the cause where there are several", test_words), &
-         new_unittest("an error message names a rolling resistance that ends with a jump", test_lift) &
+         new_unittest("an error message names several balances as the cause where there are several", test_words) &
          ]
    end subroutine collect_fold
 
@@ -97,30 +95,5 @@ contains
       call explain_end(models(1), -30.0_wp*degree, large, failure)
       call check(error, failure%message == "no deck", failure%message)
    end subroutine test_words
-
-   !> On a base circle with next to no load, with a cam whose friction lifts the finger.
-   subroutine test_lift(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(model_t), allocatable :: models(:)
-      type(error_t), allocatable :: failure
-      integer :: i
-
-      do i = 1, 2
-         case = thesis_case()
-         call set_point(case, point_speeds(1), point_viscosities(1))
-         case%mechanism%rotation = "towards_pivot"
-         case%spring%base_circle_load = 1.0e-4_wp*case%spring%base_circle_load
-         if (i == 1) case%traction%rolling_law = "goksem_hargreaves"
-         call build_models(case, models, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
-         call raise(failure, kind_convergence, "no end")
-         call explain_end(models(1), 150.0_wp*degree, 30.0_wp*large, failure)
-         call check(error, (index(failure%message, "lifts the roller off") > 0 .and. failure%cause == cause_sudden_loss) &
-            & .eqv. i == 1, failure%message)
-         if (allocated(error)) return
-      end do
-   end subroutine test_lift
 
 end module test_fold

@@ -13,6 +13,7 @@ module test_spin_slopes
    use camroller_pin_film, only : pin_law_names
    use camroller_contact_state, only : release_contact
    use camroller_spin, only : nearby_t, spin_problem_t
+   use camroller_state, only : evaluate_state, state_t
    use closeness, only : check_scaled
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_boundary_law, add_gas_force, &
@@ -53,6 +54,7 @@ contains
          new_unittest("slopes with an oil film on the roller's pin, for both of its laws", test_with_pin_film), &
          new_unittest("slopes with needles by SKF's model", test_with_skf_needles), &
          new_unittest("slopes with a given fraction of the boundary friction, as in sliding and sticking", test_given_share), &
+         new_unittest("slopes of a rolling resistance that the load holds, and no load is lost by it", test_held_rolling), &
          new_unittest("slopes without contact are those of the kinematics", test_no_contact), &
          new_unittest("a contact that was never solved is none to start from", test_no_start) &
          ]
@@ -409,6 +411,36 @@ contains
       if (allocated(error)) return
       call compare(error, model, "given share", share=-1.0_wp)
    end subroutine test_given_share
+
+   !> With loads on the base circle from a hundredth of the usual to next to none, cold oil and a cam whose friction lifts the finger.
+   subroutine test_held_rolling(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Loads over the usual one [-]
+      real(wp), parameter :: parts(*) = [1.0e-2_wp, 1.0e-3_wp, 1.0e-4_wp]
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: state
+      integer :: i, law, status
+
+      do i = 1, size(parts)
+         do law = 1, 2
+            case = thesis_case()
+            call set_point(case, point_speeds(1), point_viscosities(1))
+            case%mechanism%rotation = "towards_pivot"
+            case%spring%base_circle_load = parts(i)*case%spring%base_circle_load
+            case%traction%rolling_law = rolling_law_names(law)
+            call make_model(case, model, error)
+            if (allocated(error)) return
+            call compare(error, model, case%traction%rolling_law)
+            if (allocated(error)) return
+            call evaluate_state(model, 150.0_wp*degree, 0.3_wp, state, status)
+            associate (resistance => abs(state%contact%rolling_resistance), load => state%contact%load)
+               call check(error, resistance > 0.05_wp*load .and. resistance <= load, "no resistance that the load holds")
+            end associate
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_held_rolling
 
    subroutine test_no_contact(error)
       type(error_type), allocatable, intent(out) :: error
