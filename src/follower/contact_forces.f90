@@ -344,8 +344,8 @@ contains
    end subroutine evaluate_contact
 
    !> Rolling resistance held by the load, `F W/(F^8 + W^8)^(1/8)`. Its laws go with a root of the load at most: their slope has no
-   !> limit where the load tends to zero, and their resistance would then lift the roller off at once. Resistance below a hundredth of
-   !> the load stays as it is to the last bit, a tenth of the load is changed by 1e-9 of it. Our own.
+   !> limit where the load tends to zero, and their resistance would then lift the roller off at once. Resistance below a hundredth
+   !> of the load stays as it is to the last bit, a tenth of the load is changed by 1e-9 of it. Our own.
    pure subroutine limit_rolling(contact, parts)
       !> State of the contact; in: with the size of the resistance by its law
       type(contact_t), intent(inout) :: contact

@@ -412,7 +412,7 @@ contains
       call compare(error, model, "given share", share=-1.0_wp)
    end subroutine test_given_share
 
-   !> With loads on the base circle from a hundredth of the usual to next to none, cold oil and a cam whose friction lifts the finger.
+   !> With loads on the base circle from a hundredth of the usual to next to none, cold oil, a cam whose friction lifts the finger.
    subroutine test_held_rolling(error)
       type(error_type), allocatable, intent(out) :: error
       ! Loads over the usual one [-]
