@@ -8,7 +8,7 @@ module camroller_settings
    implicit none
    private
 
-   public :: settings_t, find_value, take, is_known, is_wrong, get_word, has_group, group_position
+   public :: settings_t, copy_settings, find_value, take, is_known, is_wrong, get_word, has_group, group_position
 
    !> One group
    type :: section_t
@@ -43,6 +43,35 @@ module camroller_settings
    end interface take
 
 contains
+
+   !> Settings for a case: without the texts of values as given, which only pages and files about a deck show. They are many.
+   pure subroutine copy_settings(from, to)
+      !> The settings of a deck
+      type(settings_t), intent(in) :: from
+      !> The same without texts
+      type(settings_t), intent(out) :: to
+
+      integer :: i
+
+      to%groups = from%groups
+      allocate (to%values(size(from%values)))
+      do i = 1, size(from%values)
+         associate (value => from%values(i), copy => to%values(i))
+            copy%name = value%name
+            if (allocated(value%numbers)) copy%numbers = value%numbers
+            if (allocated(value%integers)) copy%integers = value%integers
+            if (allocated(value%word)) copy%word = value%word
+            copy%flag = value%flag
+            copy%is_given = value%is_given
+            copy%is_known = value%is_known
+            copy%is_wrong = value%is_wrong
+            copy%line = value%line
+            copy%column = value%column
+            copy%width = value%width
+            if (allocated(value%source)) copy%source = value%source
+         end associate
+      end do
+   end subroutine copy_settings
 
    !> Position of a group.
    pure function group_position(settings, group) result(position)
