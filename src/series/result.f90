@@ -26,7 +26,7 @@ module camroller_result
 
    !> What a column of numbers means
    type :: quantity_t
-      !> Name in files and in `get_series`
+      !> Name in files and in `get_series`, no blanks behind it
       character(len=:), allocatable :: name
       !> SI unit, `1` for none, `degree` for the cam angle
       character(len=:), allocatable :: unit
@@ -251,7 +251,12 @@ contains
       !> Position, or 0
       integer :: position
 
+      integer :: length
+
+      length = len_trim(name)
       do position = 1, size(quantities)
+         ! Most names differ in length, which is told faster than whether texts are the same
+         if (len(quantities(position)%name) /= length) cycle
          if (quantities(position)%name == name) return
       end do
       position = 0
