@@ -50,6 +50,8 @@ module camroller_result
       real(wp), allocatable :: values(:)
       !> Their meaning; not allocated where values alone are wanted
       type(quantity_t), allocatable :: items(:)
+      !> Room of the caller for values alone, as many as there are; without it the list has its own [unit of the quantity]
+      real(wp), pointer, contiguous :: room(:) => null()
    end type quantity_list_t
 
    !> Result of one case
@@ -150,7 +152,7 @@ contains
 
    !> Append a quantity to a list, which grows as it has to.
    pure subroutine append_quantity(list, name, unit, description, source, value, scope, least)
-      !> The list; it has room for something, and items where names are wanted
+      !> The list; it has room of the caller, or some of its own, and items where names are wanted
       type(quantity_list_t), intent(inout) :: list
       !> Name, unit, meaning, part of the model
       character(len=*), intent(in) :: name, unit, description, source
@@ -165,6 +167,11 @@ contains
       ! Longer list of values [unit of each]
       real(wp), allocatable :: values(:)
 
+      if (associated(list%room)) then
+         list%count = list%count + 1
+         list%room(list%count) = value
+         return
+      end if
       if (list%count == size(list%values)) then
          allocate (values(2*list%count + 16))
          values(:list%count) = list%values(:list%count)
