@@ -393,7 +393,7 @@ contains
       real(wp) :: force
       integer :: status
 
-      call evaluate_loading(model, angle, position, force, moments, status)
+      call evaluate_loading(model, angle, position, force, moments, status, without_slopes=.not. allocated(model%joints))
       values = 1.0_wp
       if (status /= 0) return
       values(1) = position%lift - model%train%seat_lift

@@ -298,7 +298,7 @@ contains
    pure function is_gap(trajectory, interval) result(verdict)
       !> The trajectory, with two points at least
       type(trajectory_t), intent(in) :: trajectory
-      !> The interval
+      !> Number of its first point
       integer, intent(in) :: interval
       !> Is it?
       logical :: verdict
