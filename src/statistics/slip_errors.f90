@@ -342,7 +342,7 @@ contains
       !> Error of the trajectory there [m/s]
       real(wp), intent(in) :: error
       !> The differences [unit of each]
-      real(wp), intent(out) :: differences(:)
+      real(wp), intent(out), contiguous :: differences(:)
 
       type(state_t) :: right
       integer :: status
