@@ -3,6 +3,7 @@
 !> In: values as read from a deck. Out: single values, given to the components of a case.
 module camroller_settings
    use camroller_kinds, only : wp
+   use camroller_names, only : are_same
    use camroller_deck_schema, only : key_length
    use camroller_deck_values, only : value_t
    implicit none
@@ -86,7 +87,7 @@ contains
          associate (name => settings%groups(position)%name)
             ! Most names differ in the first letter: no comparison of texts then, since every case asks some 400 times
             if (name(1:1) /= group(1:1)) cycle
-            if (name == group) return
+            if (are_same(name, group)) return
          end associate
       end do
       position = 0
@@ -119,7 +120,7 @@ contains
       do position = settings%groups(section)%first, settings%groups(section)%last
          associate (name => settings%values(position)%name)
             if (name(1:1) /= key(1:1)) cycle
-            if (name == key) return
+            if (are_same(name, key)) return
          end associate
       end do
       position = 0
