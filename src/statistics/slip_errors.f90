@@ -167,7 +167,7 @@ contains
          call evaluate_difference(points, samples, i, error, differences)
          call add_differences(size(differences), points%weight(i), points%values(:, i), differences, signed, sizes, &
             & errors%lowest, errors%highest)
-         if (is_last) errors%integrals = errors%integrals + margin*max(abs(signed), distrust*sizes)
+         if (is_last) errors%integrals(:) = errors%integrals + margin*max(abs(signed), distrust*sizes)
       end do
    end subroutine find_slip_errors
 
