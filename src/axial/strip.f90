@@ -78,7 +78,7 @@ contains
       slopes(near + 1:) = 1.0_wp - 2.0_wp*square(near + 1:)*(sums(near + 1:) + square(near + 1:)*rises(near + 1:))
    end subroutine strip_function
 
-   !> Polynomials.
+   !> Polynomials; in blocks of places, whose sums stay in registers.
    pure subroutine sum_powers(factors, x, sums)
       !> Coefficients of x^0, x^1, ... [-]
       real(wp), intent(in) :: factors(:)
@@ -87,11 +87,20 @@ contains
       !> Sums [-]
       real(wp), intent(out), contiguous :: sums(:)
 
-      integer :: j
+      ! Places of a block
+      integer, parameter :: many = 8
+      real(wp) :: places(many), block_sums(many) ! [-]
+      integer :: first, last, j
 
-      sums = factors(size(factors))
-      do j = size(factors) - 1, 1, -1
-         sums = sums*x + factors(j)
+      places = 0.0_wp
+      do first = 1, size(x), many
+         last = min(first + many - 1, size(x))
+         places(:last - first + 1) = x(first:last)
+         block_sums = factors(size(factors))
+         do j = size(factors) - 1, 1, -1
+            block_sums = block_sums*places + factors(j)
+         end do
+         sums(first:last) = block_sums(:last - first + 1)
       end do
    end subroutine sum_powers
 

@@ -7,12 +7,26 @@ module camroller_names
    implicit none
    private
 
-   public :: name_length, index_of_name, find_name, write_names
+   public :: name_length, are_same, index_of_name, find_name, write_names
 
    !> Length of every name of a choice
    integer, parameter :: name_length = 32
 
 contains
+
+   !> Are two names the same? As by `==`, which takes blanks behind the shorter one letter by letter.
+   pure function are_same(one, other) result(verdict)
+      !> The names
+      character(len=*), intent(in) :: one, other
+      !> Are they?
+      logical :: verdict
+
+      integer :: length
+
+      length = len_trim(one)
+      verdict = length == len_trim(other)
+      if (verdict) verdict = one(:length) == other(:length)
+   end function are_same
 
    !> Position of a name in a list, 0 where it is not in it.
    pure function index_of_name(name, known) result(position)

@@ -30,6 +30,7 @@ module camroller_number_text
    integer, parameter :: all_digits = 17
    !> Length that holds every number in the forms below
    integer, parameter :: number_length = 40
+   character(len=*), parameter :: number_width = "40"
    !> Counts of digits as formats want them
    character(len=*), parameter :: counts(0:all_digits) = [character(len=2) :: "0", "1", "2", "3", "4", "5", "6", "7", "8", "9", &
       & "10", "11", "12", "13", "14", "15", "16", "17"]
@@ -208,10 +209,10 @@ contains
       used = form
       if (form == "f" .and. abs(value) >= largest_fixed) used = "es"
       ! style: write because this is the place where numbers become text
-      if (used /= "e3") write (text, "("//used//"40."//counts(places)//")") value
+      if (used /= "e3") write (text, "("//used//number_width//"."//counts(places)//")") value
       if (used == "f" .or. used == "es" .and. index(text, "E") > 0) return
       ! style: write because this is the place where numbers become text
-      write (text, "(es40."//counts(places)//"e3)") value
+      write (text, "(es"//number_width//"."//counts(places)//"e3)") value
    end subroutine write_number
 
    !> A number as people write it, with the fewest digits of a range that give it back.
@@ -239,8 +240,9 @@ contains
          do n = first, most
             call write_number(value, "es", n - 1, buffer)
             if (n == most) exit
-            if (is_beyond_range(trim(adjustl(buffer)))) cycle
-            read (buffer, *) again
+            ! Rounded up, a number near the largest is beyond it
+            if (abs(value) > 0.5_wp*huge(value) .and. is_beyond_range(trim(adjustl(buffer)))) cycle
+            read (buffer, "(f"//number_width//".0)") again
             if (.not. abs(again - value) > 0.0_wp) exit
          end do
          call write_without_needless(adjustl(buffer), text)
@@ -260,12 +262,16 @@ contains
       integer :: mark, exponent, i, n
 
       mark = index(scientific, "E")
-      read (scientific(mark + 1:), *) exponent
+      exponent = 0
+      do i = mark + 2, len_trim(scientific)
+         exponent = 10*exponent + iachar(scientific(i:i)) - iachar("0")
+      end do
+      if (scientific(mark + 1:mark + 1) == "-") exponent = -exponent
       sign = ""
       if (scientific(1:1) == "-") sign = "-"
       n = 0
       do i = 1, mark - 1
-         if (index("0123456789", scientific(i:i)) == 0) cycle
+         if (scientific(i:i) < "0" .or. scientific(i:i) > "9") cycle
          n = n + 1
          digits(n:n) = scientific(i:i)
       end do

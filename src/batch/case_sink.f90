@@ -63,20 +63,41 @@ contains
       !> What went wrong: it ends the loop
       type(error_t), allocatable, intent(out) :: error
 
-      type(case_outcome_t) :: outcome
-      type(layout_t) :: layout
-      integer :: first, count, number, i
+      ! Of cases without a result
+      type(layout_t) :: blank
+      integer :: first, count, number
 
       call take_header(record, first, count, number)
-      allocate (layout%summary(0), layout%series(0), layout%angle(0))
-      if (number > 0) layout = self%layouts%items(number)
+      if (number > 0) then
+         call take_run(self, record, first, count, self%layouts%items(number), error)
+      else
+         allocate (blank%summary(0), blank%series(0), blank%angle(0))
+         call take_run(self, record, first, count, blank, error)
+      end if
+   end subroutine take_each
+
+   !> Take the cases of a run.
+   subroutine take_run(self, record, first, count, layout, error)
+      class(sink_t), intent(inout) :: self
+      !> The cases
+      type(record_t), intent(inout) :: record
+      !> Number of the first of them, and how many there are
+      integer, intent(in) :: first, count
+      !> Their layout
+      type(layout_t), intent(in) :: layout
+      !> What went wrong: it ends the loop
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_outcome_t) :: outcome
+      integer :: i
+
       do i = first, first + count - 1
          call take_case(record, layout, outcome)
          call self%take(i, outcome, layout, error)
          if (allocated(error)) return
       end do
       if (record%is_short) call raise(error, kind_internal, "a record of cases is shorter than its stated length")
-   end subroutine take_each
+   end subroutine take_run
 
    !> Take a case.
    subroutine ignore_case(self, number, outcome, layout, error)

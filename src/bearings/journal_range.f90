@@ -4,7 +4,7 @@
 module camroller_journal_range
    use camroller_kinds, only : wp
    use camroller_journal, only : journal_law_names, law_covers_width, law_finite, law_long, law_short
-   use camroller_number_text, only : number_text
+   use camroller_number_text, only : append_number
    implicit none
    private
 
@@ -37,10 +37,13 @@ contains
             return
          end if
          if (law == journal_law_names(law_short)) then
-            words = "is for bearings narrower than "//number_text(short_width)//" diameters; "
+            words = "is for bearings narrower than "
+            call append_number(words, short_width)
          else
-            words = "is for bearings wider than "//number_text(long_width)//" diameters; "
+            words = "is for bearings wider than "
+            call append_number(words, long_width)
          end if
+         words = words//" diameters; "
          if (law_covers_width(journal_law_names(law_finite), width, diameter)) then
             words = words//"'"//trim(journal_law_names(law_finite))//"' covers 0.1 to 1"
          else if (ratio <= short_width) then
@@ -48,7 +51,8 @@ contains
          else if (ratio >= long_width) then
             words = words//"'"//trim(journal_law_names(law_long))//"' covers these"
          else
-            words = words//"no law here covers 1 to "//number_text(long_width)
+            words = words//"no law here covers 1 to "
+            call append_number(words, long_width)
          end if
       end associate
    end subroutine compare_width

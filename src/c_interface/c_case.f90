@@ -450,9 +450,9 @@ contains
          if (word == "cam_angle") then
             call give_text("rad", buffer, room)
          else if (series > 0) then
-            call give_text(given%result%series(series)%unit, buffer, room)
+            call give_text(trim(given%result%series(series)%unit), buffer, room)
          else if (scalar > 0) then
-            call give_text(given%result%summary(scalar)%unit, buffer, room)
+            call give_text(trim(given%result%summary(scalar)%unit), buffer, room)
          else
             call raise(failure, kind_usage, "the result has no series and no scalar '"//word//"'")
          end if

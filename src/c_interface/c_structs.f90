@@ -189,7 +189,7 @@ contains
 
       if (.not. present(texts)) return
       call give_text(quantity%name, texts(1), room)
-      call give_text(quantity%unit, texts(2), room)
+      call give_text(trim(quantity%unit), texts(2), room)
       call give_text(quantity%description, texts(3), room)
    end subroutine give_quantity
 

@@ -172,7 +172,7 @@ contains
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: x
       !> Torque [N m], flow [m^3/s]
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), contiguous :: values(:)
       !> Domain error
       type(error_t), allocatable, intent(out) :: error
 

@@ -12,7 +12,7 @@ module camroller_bearing_remarks
    use camroller_journal_motion, only : largest_fitted
    use camroller_journal_range, only : compare_width
    use camroller_needle, only : kind_journal, roller_bearing_names
-   use camroller_number_text, only : counted, integer_text, number_text
+   use camroller_number_text, only : append_number, counted, integer_text, number_text
    use camroller_remarks, only : remark_t, add_remark, bearing_width, orbit_out_of_range, rubbing_bearing
    use camroller_shaft, only : bearing_number, has_orbits, shaft_t, shaft_torques, solved_t
    use camroller_torque_list, only : torque_count
@@ -145,8 +145,10 @@ contains
          real(wp) :: excess ! by which factor [-]
 
          call compare_width(law, width, diameter, excess, words)
-         if (excess > 0.0_wp) call add_remark(remarks, bearing_width, key//" '"//trim(law)//"' "//words//"; "//holder//" "// &
-            & number_text(width/diameter, 3), excess)
+         if (.not. excess > 0.0_wp) return
+         words = key//" '"//trim(law)//"' "//words//"; "//holder//" "
+         call append_number(words, width/diameter, 3)
+         call add_remark(remarks, bearing_width, words, excess)
       end subroutine judge
 
    end subroutine judge_widths

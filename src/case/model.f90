@@ -278,7 +278,7 @@ contains
    end subroutine set_film_table
 
    !> Geometry at a cam angle.
-   pure subroutine evaluate_geometry(model, angle, position, status, path_only)
+   pure subroutine evaluate_geometry(model, angle, position, status, path_only, without_slopes)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -287,12 +287,13 @@ contains
       type(position_t), intent(out) :: position
       !> 0 fine, negative: the finger cannot reach this lift
       integer, intent(out) :: status
-      !> Is the roller's path over the cam all that is wanted?
-      logical, intent(in), optional :: path_only
+      !> Is the roller's path over the cam all that is wanted, or all but slopes? See `evaluate_position`
+      logical, intent(in), optional :: path_only, without_slopes
+
       real(wp) :: lift(0:3) ! lift and its first three derivatives [m/rad^n]
 
       call evaluate_lift(model%lift_law, angle, lift)
-      call evaluate_position(model%linkage, lift, position, status, path_only)
+      call evaluate_position(model%linkage, lift, position, status, path_only, without_slopes)
       position%angle = angle
    end subroutine evaluate_geometry
 

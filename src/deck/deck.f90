@@ -17,7 +17,7 @@ module camroller_deck
    use camroller_text_encoding, only : check_encoding, first_foreign
    use camroller_deck_schema, only : schema_t
    use camroller_deck_keys, only : new_schema
-   use camroller_settings, only : find_value, group_position, settings_t, take
+   use camroller_settings, only : copy_settings, find_value, group_position, settings_t, take
    use camroller_deck_matching, only : override_t, add_override, new_settings, match_deck, apply_override, demand_required, &
       & fill_dependent_defaults
    use camroller_deck_relations, only : check_relations
@@ -219,6 +219,7 @@ contains
             if (value%is_given) return
             value%is_known = number > 0.0_wp
             value%numbers = [number]
+            if (.not. allocated(value%text)) return
             value%text = ""
             call append_number(value%text, factor*number)
          end associate
@@ -258,7 +259,7 @@ contains
       type(deck_t), intent(in) :: deck
       !> Values other than the deck's
       type(override_t), intent(in) :: overrides(:)
-      !> The settings
+      !> The settings, without texts of values as given
       type(settings_t), intent(out) :: settings
       !> The tables that they name
       type(deck_tables_t), intent(out) :: tables
@@ -268,7 +269,7 @@ contains
       type(mistakes_t) :: mistakes
       integer :: i
 
-      settings = deck%settings
+      call copy_settings(deck%settings, settings)
       tables = deck%tables
       do i = 1, size(overrides)
          call apply_override(deck%schema, overrides(i), settings, mistakes)

@@ -80,7 +80,7 @@ contains
          character(len=*), intent(in) :: name, unit, meaning
 
          n = n + 1
-         list(n)%name = name
+         list(n)%name = trim(name)
          list(n)%unit = unit
          list(n)%description = meaning
          list(n)%source = "ehl"

@@ -197,7 +197,7 @@ contains
          one%key = series(i)%name
          one%name = one%key
          if (cam > 0) one%name = "cam["//integer_text(cam)//"]."//one%name
-         one%unit = series(i)%unit
+         one%unit = trim(series(i)%unit)
          one%meaning = series(i)%description
          call append(variables, one)
       end do

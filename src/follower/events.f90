@@ -123,7 +123,7 @@ contains
          do kind = 1, size(before)
             if ((before(kind) > 0.0_wp) .neqv. (after(kind) > 0.0_wp)) then
                call append(angles, [switch_angle(model, kind, places(2), places(3), before(kind), after(kind), switches)])
-            else if (i - 2 >= first) then
+            else if (i - 2 >= first .and. abs(before(kind)) < min(abs(earlier(kind)), abs(after(kind)))) then
                call add_short_change(model, kind, places, [earlier(kind), before(kind), after(kind)], angles)
             end if
          end do
@@ -147,14 +147,15 @@ contains
    end subroutine append
 
    !> Add the angles at which a switch changes its sign and changes it back between three angles of the scan, if there are any:
-   !> where the one in the middle is so close to zero that the next values rise by more than itself, its extreme is looked for.
+   !> where the one in the middle is the nearest to zero, and so close that the next values rise by more than itself, its extreme is
+   !> looked for.
    subroutine add_short_change(model, kind, places, values, angles)
       type(model_t), intent(in) :: model
       !> Which of the switches
       integer, intent(in) :: kind
       !> Three angles of the scan [rad]
       real(wp), intent(in) :: places(3)
-      !> Values of the switch there [unit of the switch]
+      !> Values of the switch there, the one in the middle the nearest to zero [unit of the switch]
       real(wp), intent(in) :: values(3)
       !> Angles so far [rad]
       real(wp), allocatable, intent(inout) :: angles(:)
@@ -165,7 +166,7 @@ contains
 
       heights = abs(values)
       if (any((values > 0.0_wp) .neqv. (values(2) > 0.0_wp))) return
-      if (heights(2) >= min(heights(1), heights(3)) .or. 2.0_wp*heights(2) >= maxval(heights)) return
+      if (2.0_wp*heights(2) >= maxval(heights)) return
       call start_minimum(search, places, heights, tolerance=0.0_wp)
       do while (search%is_wanted)
          found = switches(model, search%trial)
@@ -393,7 +394,7 @@ contains
       real(wp) :: force
       integer :: status
 
-      call evaluate_loading(model, angle, position, force, moments, status)
+      call evaluate_loading(model, angle, position, force, moments, status, without_slopes=.not. allocated(model%joints))
       values = 1.0_wp
       if (status /= 0) return
       values(1) = position%lift - model%train%seat_lift

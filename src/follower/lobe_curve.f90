@@ -214,7 +214,7 @@ contains
       !> The points, in order [rad]
       real(wp), intent(in) :: angles(:)
       !> Quantities there, shape (quantity, point) [unit of each]
-      real(wp), intent(in) :: values(:, :)
+      real(wp), intent(in), contiguous :: values(:, :)
       !> Does the point tell?
       logical :: is_telling(size(angles))
 

@@ -256,7 +256,7 @@ contains
       real(wp) :: force, normal(2), tangent(2)
       integer :: status
 
-      call evaluate_loading(model, angle, position, force, moments, status)
+      call evaluate_loading(model, angle, position, force, moments, status, without_slopes=.true.)
       associate (arm => merge(position%normal_arm, position%parallel_arm, model%has_exact_arm), &
          & inertia => moments%valve + moments%finger)
          splits(contact_load) = split_t((moments%total - inertia)/arm, inertia/arm)

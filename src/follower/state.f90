@@ -77,7 +77,7 @@ module camroller_state
 contains
 
    !> Geometry and moments: what depends on the cam angle alone.
-   pure subroutine evaluate_loading(model, angle, position, force, moments, status)
+   pure subroutine evaluate_loading(model, angle, position, force, moments, status, without_slopes)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -90,9 +90,11 @@ contains
       type(moments_t), intent(out) :: moments
       !> 0 fine, negative: the finger cannot reach this lift
       integer, intent(out) :: status
+      !> May slopes of the geometry be left out, see `evaluate_position`? Friction of joints asks for them
+      logical, intent(in), optional :: without_slopes
 
       force = 0.0_wp
-      call evaluate_geometry(model, angle, position, status)
+      call evaluate_geometry(model, angle, position, status, without_slopes=without_slopes)
       if (status /= 0) return
       if (allocated(model%gas)) force = gas_force(model%gas, angle)
       call evaluate_moments(model%train, position, model%speed, force, moments)

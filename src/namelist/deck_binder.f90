@@ -14,6 +14,7 @@ module camroller_deck_binder
    use camroller_deck_schema, only : schema_t, range_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
       & add_numbers, add_integers, group_effect
    use camroller_kinds, only : wp
+   use camroller_names, only : are_same
    use camroller_settings, only : settings_t, find_value, group_position
    implicit none
    private
@@ -86,7 +87,7 @@ contains
       associate (groups => keys%settings%groups)
          keys%section = keys%section + 1
          is_next = keys%section <= size(groups)
-         if (is_next) is_next = groups(keys%section)%name == name
+         if (is_next) is_next = are_same(groups(keys%section)%name, name)
          if (.not. is_next) keys%section = group_position(keys%settings, name)
          keys%next = groups(keys%section)%first
          keys%is_wanted = kind /= group_effect .or. groups(keys%section)%is_present
@@ -115,7 +116,7 @@ contains
       associate (settings => keys%settings, section => keys%settings%groups(keys%section))
          position = keys%next
          is_next = position <= section%last
-         if (is_next) is_next = settings%values(position)%name == name
+         if (is_next) is_next = are_same(settings%values(position)%name, name)
          if (.not. is_next) position = find_value(settings, trim(section%name), name)
       end associate
       keys%next = position + 1

@@ -60,6 +60,7 @@ contains
       end do
       do i = 1, schema%key_count
          settings%values(i)%name = schema%keys(i)%name
+         settings%values(i)%text = ""
          if (.not. allocated(schema%keys(i)%default)) cycle
          call read_value(schema%keys(i), schema%keys(i)%default, settings%values(i), reason)
       end do
@@ -422,7 +423,7 @@ contains
       target = find_value(settings, group, to)
       if (settings%values(target)%is_given .or. .not. settings%values(source)%is_known) return
       settings%values(target)%numbers = settings%values(source)%numbers
-      settings%values(target)%text = settings%values(source)%text
+      if (allocated(settings%values(source)%text)) settings%values(target)%text = settings%values(source)%text
       settings%values(target)%is_known = .true.
    end subroutine copy_value
 

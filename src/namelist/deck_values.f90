@@ -35,7 +35,7 @@ module camroller_deck_values
    type :: value_t
       !> Name of the key
       character(len=key_length) :: name = ""
-      !> As given, or the default, in the unit of the key
+      !> As given, or the default, in the unit of the key; the settings of a single case do without it
       character(len=:), allocatable :: text
       !> Numbers [SI unit]
       real(wp), allocatable :: numbers(:)

@@ -3,12 +3,13 @@
 !> In: values as read from a deck. Out: single values, given to the components of a case.
 module camroller_settings
    use camroller_kinds, only : wp
+   use camroller_names, only : are_same
    use camroller_deck_schema, only : key_length
    use camroller_deck_values, only : value_t
    implicit none
    private
 
-   public :: settings_t, find_value, take, is_known, is_wrong, get_word, has_group, group_position
+   public :: settings_t, copy_settings, find_value, take, is_known, is_wrong, get_word, has_group, group_position
 
    !> One group
    type :: section_t
@@ -44,6 +45,35 @@ module camroller_settings
 
 contains
 
+   !> Settings for a case: without the texts of values as given, which only pages and files about a deck show. They are many.
+   pure subroutine copy_settings(from, to)
+      !> The settings of a deck
+      type(settings_t), intent(in) :: from
+      !> The same without texts
+      type(settings_t), intent(out) :: to
+
+      integer :: i
+
+      to%groups = from%groups
+      allocate (to%values(size(from%values)))
+      do i = 1, size(from%values)
+         associate (value => from%values(i), copy => to%values(i))
+            copy%name = value%name
+            if (allocated(value%numbers)) copy%numbers = value%numbers
+            if (allocated(value%integers)) copy%integers = value%integers
+            if (allocated(value%word)) copy%word = value%word
+            copy%flag = value%flag
+            copy%is_given = value%is_given
+            copy%is_known = value%is_known
+            copy%is_wrong = value%is_wrong
+            copy%line = value%line
+            copy%column = value%column
+            copy%width = value%width
+            if (allocated(value%source)) copy%source = value%source
+         end associate
+      end do
+   end subroutine copy_settings
+
    !> Position of a group.
    pure function group_position(settings, group) result(position)
       !> The settings
@@ -57,7 +87,7 @@ contains
          associate (name => settings%groups(position)%name)
             ! Most names differ in the first letter: no comparison of texts then, since every case asks some 400 times
             if (name(1:1) /= group(1:1)) cycle
-            if (name == group) return
+            if (are_same(name, group)) return
          end associate
       end do
       position = 0
@@ -90,7 +120,7 @@ contains
       do position = settings%groups(section)%first, settings%groups(section)%last
          associate (name => settings%values(position)%name)
             if (name(1:1) /= key(1:1)) cycle
-            if (name == key) return
+            if (are_same(name, key)) return
          end associate
       end do
       position = 0

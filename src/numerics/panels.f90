@@ -63,7 +63,7 @@ module camroller_panels
          !> The point [x]
          real(wp), intent(in) :: x
          !> Values [unit of each]
-         real(wp), intent(out) :: values(:)
+         real(wp), intent(out), contiguous :: values(:)
          !> Why there are none
          type(error_t), allocatable, intent(out) :: error
       end subroutine sample_values
@@ -101,7 +101,7 @@ contains
       !> Ends [x]
       real(wp), intent(in) :: left, right
       !> Values at the seven nodes, shape (quantity, node) [unit of each]
-      real(wp), intent(in) :: values(:, :)
+      real(wp), intent(in), contiguous :: values(:, :)
 
       if (panels%count == size(panels%left)) call grow(panels)
       panels%count = panels%count + 1
@@ -237,7 +237,7 @@ contains
       !> Ends [x]
       real(wp), intent(in) :: left, right
       !> Values, shape (quantity, node) [unit of each]
-      real(wp), intent(out) :: values(:, :)
+      real(wp), intent(out), contiguous :: values(:, :)
       !> Why there is no value at a node
       type(error_t), allocatable, intent(out) :: error
 
@@ -257,28 +257,48 @@ contains
       !> Ends [x]
       real(wp), intent(in) :: left, right
       !> Values at the seven nodes, shape (quantity, node) [unit of each]
-      real(wp), intent(in) :: values(:, :)
-
-      ! Length of the panel [x]; sums and differences of values at opposite nodes [unit of the quantity]
-      real(wp) :: length, sums(4), differences(3)
-      ! Error estimates one by one [unit of the quantity]
-      real(wp) :: by_rules, by_odd, by_even
-      integer :: i
+      real(wp), intent(in), contiguous :: values(:, :)
 
       panels%left(panel) = left
       panels%right(panel) = right
-      length = right - left
-      do i = 1, size(values, 1)
-         sums = [values(i, 1:3) + values(i, 7:5:-1), values(i, 4)]
-         differences = values(i, 7:5:-1) - values(i, 1:3)
-         by_rules = sum(kronrod*sums) - gauss(1)*sums(2) - gauss(2)*sums(4)
-         by_odd = sum(fifth*differences)
-         by_even = sum(sixth*sums)
-         panels%integrals(i, panel) = 0.5_wp*length*sum(kronrod*sums)
-         panels%sizes(i, panel) = length*sum(panel_weights*abs(values(i, :)))
-         panels%errors(i, panel) = 0.5_wp*length*sqrt(by_rules**2 + by_odd**2 + by_even**2)
-      end do
+      call integrate(size(values, 1), right - left, values, panels%integrals(:, panel), panels%sizes(:, panel), &
+         & panels%errors(:, panel))
    end subroutine set_panel
+
+   !> The same for each quantity, of which the compiler takes several at once.
+   pure subroutine integrate(count, length, values, integrals, sizes, errors)
+      !> Number of quantities
+      integer, intent(in) :: count
+      !> Length of the panel [x]
+      real(wp), intent(in) :: length
+      !> Values at the seven nodes [unit of each]
+      real(wp), intent(in) :: values(count, panel_points)
+      !> Integrals of the values, of their magnitudes, error estimates [unit of each times that of x]
+      real(wp), intent(out) :: integrals(count), sizes(count), errors(count)
+
+      ! Sums and differences of values at opposite nodes; mean; error estimates one by one [unit of the quantity]
+      real(wp) :: sums(4), differences(3), mean, by_rules, by_odd, by_even
+      integer :: i
+
+      do i = 1, count
+         sums(1) = values(i, 1) + values(i, 7)
+         sums(2) = values(i, 2) + values(i, 6)
+         sums(3) = values(i, 3) + values(i, 5)
+         sums(4) = values(i, 4)
+         differences(1) = values(i, 7) - values(i, 1)
+         differences(2) = values(i, 6) - values(i, 2)
+         differences(3) = values(i, 5) - values(i, 3)
+         mean = kronrod(1)*sums(1) + kronrod(2)*sums(2) + kronrod(3)*sums(3) + kronrod(4)*sums(4)
+         by_rules = mean - gauss(1)*sums(2) - gauss(2)*sums(4)
+         by_odd = fifth(1)*differences(1) + fifth(2)*differences(2) + fifth(3)*differences(3)
+         by_even = sixth(1)*sums(1) + sixth(2)*sums(2) + sixth(3)*sums(3) + sixth(4)*sums(4)
+         integrals(i) = 0.5_wp*length*mean
+         sizes(i) = length*(panel_weights(1)*abs(values(i, 1)) + panel_weights(2)*abs(values(i, 2)) &
+            & + panel_weights(3)*abs(values(i, 3)) + panel_weights(4)*abs(values(i, 4)) + panel_weights(5)*abs(values(i, 5)) &
+            & + panel_weights(6)*abs(values(i, 6)) + panel_weights(7)*abs(values(i, 7)))
+         errors(i) = 0.5_wp*length*sqrt(by_rules**2 + by_odd**2 + by_even**2)
+      end do
+   end subroutine integrate
 
    !> Sizes of the two highest terms of the polynomial through the values at the seven nodes: what a polynomial of degree four would
    !> miss, which is more than that of degree six does.

@@ -45,9 +45,9 @@ module camroller_sampled_extremes
       !> round the turn, shape (side, row)
       integer, allocatable, private :: order(:), beside(:, :)
       integer, private :: sorted = 0
-      !> Among them by angle: places of the smallest and the largest value of each series, shape (2, series); places where it may
-      !> turn, those of all series one after another, and what stands before the first of each series
-      integer, allocatable, private :: ends(:, :), turns(:), before_turns(:)
+      !> Among them by angle: places of the smallest and the largest value of each series, shape (2, series); how many places there
+      !> are where it may turn, and these places, shape (turn, series)
+      integer, allocatable, private :: ends(:, :), turn_counts(:), turns(:, :)
    end type samples_t
 
    !> Search for the smallest or largest value of a series; for the largest all values have the opposite sign
@@ -192,49 +192,60 @@ contains
       !> The rows; their neighbours are known
       type(samples_t), intent(inout) :: samples
 
-      ! Values by angle, one row beyond the turn at both ends [unit of the series]
-      real(wp), allocatable :: values(:)
-      integer, allocatable :: turns(:)
-      integer :: series, place, found
+      ! Smallest and largest values so far, shape (2, series) [unit of each]
+      real(wp), allocatable :: extremes(:, :)
+      integer :: place, before, here, after
 
-      if (allocated(samples%ends)) deallocate (samples%ends, samples%turns, samples%before_turns)
-      allocate (samples%ends(2, size(samples%values, 1)), samples%before_turns(size(samples%values, 1) + 1))
-      allocate (values(0:samples%count + 1), turns(samples%count*size(samples%values, 1)))
-      found = 0
-      associate (order => samples%order, ends => samples%ends)
-         ends = 1
-         do series = 1, size(samples%values, 1)
-            samples%before_turns(series) = found
-            values(1:samples%count) = samples%values(series, order)
-            values([0, samples%count + 1]) = values([samples%count, 1])
-            do place = 1, samples%count
-               associate (before => values(place - 1), here => values(place), after => values(place + 1))
-                  if ((here > before .and. here < after) .or. (here < before .and. here > after)) cycle
-                  if (here < values(ends(1, series))) ends(1, series) = place
-                  if (here > values(ends(2, series))) ends(2, series) = place
-                  if (max(before, after) <= here .and. min(before, after) >= here .and. stands_alone(samples, place)) cycle
-               end associate
-               found = found + 1
-               turns(found) = place
-            end do
+      if (allocated(samples%ends)) deallocate (samples%ends, samples%turn_counts, samples%turns)
+      associate (order => samples%order, values => samples%values, rows => samples%count, count => size(samples%values, 1))
+         allocate (samples%ends(2, count), samples%turn_counts(count), samples%turns(rows, count))
+         samples%ends = 1
+         samples%turn_counts = 0
+         before = order(rows)
+         here = order(1)
+         extremes = spread(values(:, here), 1, 2)
+         do place = 1, rows
+            after = order(merge(1, place + 1, place == rows))
+            call look_at_place(place, samples%beside(1, here) == before .and. samples%beside(2, here) == after, rows, count, &
+               & values(:, before), values(:, here), values(:, after), extremes, samples%ends, samples%turn_counts, samples%turns)
+            before = here
+            here = after
          end do
       end associate
-      samples%before_turns(size(samples%before_turns)) = found
-      samples%turns = turns(:found)
    end subroutine find_turns
 
-   !> Have the rows beside a place other angles than the row there?
-   pure function stands_alone(samples, place)
-      !> The rows; their neighbours are known
-      type(samples_t), intent(in) :: samples
-      !> The place among them by angle
+   !> Look whether series may turn at a place, or have an extreme there.
+   pure subroutine look_at_place(place, is_alone, rows, count, before, here, after, extremes, ends, turn_counts, turns)
+      !> The place among the rows by angle
       integer, intent(in) :: place
-      logical :: stands_alone
+      !> Has no other row its angle?
+      logical, intent(in) :: is_alone
+      !> Number of rows and of series
+      integer, intent(in) :: rows, count
+      !> Values at the place before, here, and at the one after [unit of each]
+      real(wp), intent(in) :: before(count), here(count), after(count)
+      !> Smallest and largest values of the places before [unit of each], and their places
+      real(wp), intent(inout) :: extremes(2, count)
+      integer, intent(inout) :: ends(2, count)
+      !> Number of places where each may turn, and these places
+      integer, intent(inout) :: turn_counts(count), turns(rows, count)
 
-      associate (order => samples%order, n => samples%count)
-         stands_alone = all(samples%beside(:, order(place)) == order([1 + modulo(place - 2, n), 1 + modulo(place, n)]))
-      end associate
-   end function stands_alone
+      integer :: i
+
+      do i = 1, count
+         if ((here(i) > before(i) .and. here(i) < after(i)) .or. (here(i) < before(i) .and. here(i) > after(i))) cycle
+         if (here(i) < extremes(1, i)) then
+            extremes(1, i) = here(i)
+            ends(1, i) = place
+         else if (here(i) > extremes(2, i)) then
+            extremes(2, i) = here(i)
+            ends(2, i) = place
+         end if
+         if (is_alone .and. max(before(i), after(i)) <= here(i) .and. min(before(i), after(i)) >= here(i)) cycle
+         turn_counts(i) = turn_counts(i) + 1
+         turns(turn_counts(i), i) = place
+      end do
+   end subroutine look_at_place
 
    !> Begin the search for the smallest or largest value of a series. Each series is searched by itself, so that what else is
    !> sampled changes no bit of it.
@@ -261,9 +272,9 @@ contains
       search%sense = sense
       search%worth = min(max(least_worth, worth_part*tolerance), most_worth)
       search%coarse = max(least_worth, tolerance)
-      associate (ends => samples%order(samples%ends(:, series)))
-         extreme = ends(merge(1, 2, sense > 0))
-         search%extent = samples%values(series, ends(2)) - samples%values(series, ends(1))
+      associate (lowest => samples%order(samples%ends(1, series)), highest => samples%order(samples%ends(2, series)))
+         extreme = merge(lowest, highest, sense > 0)
+         search%extent = samples%values(series, highest) - samples%values(series, lowest)
       end associate
       if (present(among)) extreme = minloc(sense*samples%values(series, :samples%count), 1, among)
       search%value = sense*samples%values(series, extreme)
@@ -294,7 +305,7 @@ contains
    end subroutine narrow_search
 
    !> Rows near which there may be an extreme: the extreme one, then those that may hide a value beyond it, the most promising
-   !> first.
+   !> first. Not those where slopes jump, nor those at an end of the part of the turn that is searched.
    pure subroutine list_rows(samples, extreme, search, among)
       !> The rows
       type(samples_t), intent(in) :: samples
@@ -303,51 +314,57 @@ contains
       !> As of `start_search`
       logical, intent(in), optional :: among(:)
 
-      integer :: rows(samples%count)
-      ! The lowest value that each of these rows may hide [unit of the series]
-      real(wp) :: bounds(samples%count), bound
-      integer :: found, turn, place, best, first
+      ! The lowest values that the rows may hide, in rising order from behind the extreme one; that of a row [unit of the series]
+      real(wp) :: bounds(most_rows), bound
+      integer :: turn, first, place
 
       search%bound = search%value
       search%point = samples%angle(extreme)
       search%is_exact = samples%is_exact(extreme)
-      found = 0
-      do turn = samples%before_turns(search%series) + 1, samples%before_turns(search%series + 1)
-         associate (row => samples%order(samples%turns(turn)))
-            if (row == extreme .or. .not. is_smooth(samples, row, among)) cycle
+      first = merge(0, 1, samples%is_kink(extreme))
+      if (present(among)) first = merge(first, 0, is_within(samples, extreme, among))
+      search%rows(:first) = extreme
+      search%row_count = first
+      do turn = 1, samples%turn_counts(search%series)
+         associate (row => samples%order(samples%turns(turn, search%series)))
+            if (row == extreme .or. samples%is_kink(row)) cycle
+            if (present(among)) then
+               if (.not. is_within(samples, row, among)) cycle
+            end if
             bound = lowest_hidden(samples, search, row)
             if (bound >= search%value - search%worth*search%extent) then
                search%bound = min(search%bound, bound)
                cycle
             end if
-            found = found + 1
-            rows(found) = row
-            bounds(found) = bound
+            if (search%row_count == most_rows) then
+               ! One too many: the last one is not looked near
+               search%bound = min(search%bound, max(bound, bounds(most_rows)))
+               if (bound >= bounds(most_rows)) cycle
+               search%row_count = most_rows - 1
+            end if
+            do place = search%row_count + 1, first + 2, -1
+               if (bounds(place - 1) <= bound) exit
+               search%rows(place) = search%rows(place - 1)
+               bounds(place) = bounds(place - 1)
+            end do
+            search%rows(place) = row
+            bounds(place) = bound
+            search%row_count = search%row_count + 1
          end associate
       end do
-      first = merge(1, 0, is_smooth(samples, extreme, among))
-      search%row_count = min(found + first, most_rows)
-      search%rows(:first) = extreme
-      do place = first + 1, search%row_count
-         best = minloc(bounds(:found), 1)
-         search%rows(place) = rows(best)
-         bounds(best) = huge(1.0_wp)
-      end do
-      if (found > 0) search%bound = min(search%bound, minval(bounds(:found)))
    end subroutine list_rows
 
-   !> May series be searched near a row? Not where their slopes jump, nor where the part of the turn that is searched ends.
-   pure function is_smooth(samples, row, among)
+   !> Are a row and its neighbours in the part of the turn that is searched?
+   pure function is_within(samples, row, among)
       !> The rows; their neighbours are known
       type(samples_t), intent(in) :: samples
       integer, intent(in) :: row
       !> As of `start_search`
-      logical, intent(in), optional :: among(:)
-      logical :: is_smooth
+      logical, intent(in) :: among(:)
+      logical :: is_within
 
-      is_smooth = .not. samples%is_kink(row)
-      if (present(among)) is_smooth = is_smooth .and. among(row) .and. all(among(samples%beside(:, row)))
-   end function is_smooth
+      is_within = among(row) .and. among(samples%beside(1, row)) .and. among(samples%beside(2, row))
+   end function is_within
 
    !> Lowest value that there may be beside a row at which the series turns. A curve that is bent to one side is nowhere below the
    !> straight lines through the row and its neighbours, continued to the neighbour on the other side; beside a jump, below the line
@@ -394,8 +411,12 @@ contains
 
       integer :: next
 
-      values = search%sense*samples%values(search%series, [samples%beside(1, row), row, samples%beside(2, row)])
-      x = [-way(samples, samples%beside(1, row), row), 0.0_wp, way(samples, row, samples%beside(2, row))]
+      associate (left => samples%beside(1, row), right => samples%beside(2, row))
+         values(1) = search%sense*samples%values(search%series, left)
+         values(2) = search%sense*samples%values(search%series, row)
+         values(3) = search%sense*samples%values(search%series, right)
+         x = [-way(samples, left, row), 0.0_wp, way(samples, row, right)]
+      end associate
       outer = 0.0_wp
       jump = 0
       if (-x(1) < 1.5_wp*beside_jump) jump = 1

@@ -35,6 +35,8 @@ module camroller_trajectory
    integer, parameter :: first_room = 64
    !> Numbers that make a curve
    integer, parameter, public :: curve_numbers = 6
+   !> A margin over the spacing of numbers at its stop [-]
+   real(wp), parameter :: margin_spacings = 4.0_wp
    !> Shortest segment that is integrated, and longest interval that is no step but one that was passed over, over the margin at a
    !> stop: two margins more, and some for the margin's own rounding [-]
    real(wp), parameter, public :: least_segment = 64.0_wp
@@ -49,7 +51,7 @@ contains
       !> The distance [time]
       real(wp) :: margin
 
-      margin = 4.0_wp*spacing(maxval(abs(stops)))
+      margin = margin_spacings*spacing(maxval(abs(stops)))
    end function stop_margin
 
    !> Empty a trajectory; its memory is kept.
@@ -264,14 +266,14 @@ contains
       integer :: i, step
 
       step = interval
-      associate (times => trajectory%time, count => trajectory%count)
-         if (times(step + 1) - times(step) <= longest_gap*stop_margin([times(1), times(count)])) then
-            if (interval > 1) then
-               step = interval - 1
-            else if (interval < count - 1) then
-               step = interval + 1
-            end if
+      if (is_gap(trajectory, interval)) then
+         if (interval > 1) then
+            step = interval - 1
+         else if (interval < trajectory%count - 1) then
+            step = interval + 1
          end if
+      end if
+      associate (times => trajectory%time)
          length = times(step + 1) - times(step)
          if (length <= 0.0_wp) then
             slope = 0.0_wp
@@ -291,6 +293,23 @@ contains
          slope(i) = slope(i)/length
       end do
    end subroutine curve_slope
+
+   !> Is an interval no step, but the gap at a stop?
+   pure function is_gap(trajectory, interval) result(verdict)
+      !> The trajectory, with two points at least
+      type(trajectory_t), intent(in) :: trajectory
+      !> Number of its first point
+      integer, intent(in) :: interval
+      !> Is it?
+      logical :: verdict
+
+      associate (first => trajectory%time(1), last => trajectory%time(trajectory%count), &
+         & length => trajectory%time(interval + 1) - trajectory%time(interval))
+         ! A margin is never wider than by `epsilon` in the place of `spacing`, which takes longer to find
+         verdict = length <= longest_gap*margin_spacings*epsilon(1.0_wp)*max(abs(first), abs(last), 1.0_wp)
+         if (verdict) verdict = length <= longest_gap*stop_margin([first, last])
+      end associate
+   end function is_gap
 
    !> Interval of a table of rising times that holds a time: a few steps from the hint, else by bisection.
    pure subroutine find_interval(times, time, hint)

@@ -136,9 +136,9 @@ contains
       call put_integer(record, size(quantities))
       do i = 1, size(quantities)
          call put_text(record, quantities(i)%name)
-         call put_text(record, quantities(i)%unit)
+         call put_text(record, trim(quantities(i)%unit))
          call put_text(record, quantities(i)%description)
-         call put_text(record, quantities(i)%source)
+         call put_text(record, trim(quantities(i)%source))
          call put_text(record, trim(quantities(i)%scope))
       end do
    end subroutine put_quantities
@@ -165,18 +165,20 @@ contains
       type(record_t), intent(inout) :: record
       type(quantity_t), allocatable, intent(out) :: quantities(:)
 
-      character(len=:), allocatable :: scope
+      character(len=:), allocatable :: text
       integer :: i, count
 
       call take_integer(record, count)
       allocate (quantities(count))
       do i = 1, count
          call take_text(record, quantities(i)%name)
-         call take_text(record, quantities(i)%unit)
+         call take_text(record, text)
+         quantities(i)%unit = text
          call take_text(record, quantities(i)%description)
-         call take_text(record, quantities(i)%source)
-         call take_text(record, scope)
-         quantities(i)%scope = scope
+         call take_text(record, text)
+         quantities(i)%source = text
+         call take_text(record, text)
+         quantities(i)%scope = text
       end do
    end subroutine take_quantities
 

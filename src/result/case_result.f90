@@ -304,6 +304,7 @@ contains
       integer :: turn_of(size(solved%shaft%lobes)), behind(size(solved%shaft%lobes))
       ! Torques on each camshaft [N m]; what each cam takes [N m, N]
       real(wp) :: torques(torque_count, solved%shaft%count), cams(curve_values, size(solved%shaft%lobes))
+      real(wp) :: row(size(result%series)) ! [unit of each series]
       ! States of the bearings; allocated where they have series
       type(bearing_state_t), allocatable :: bearings(:, :)
       integer :: columns(2), i, k, cam, angles
@@ -330,7 +331,8 @@ contains
          end do
          call shaft_torques(solved, result%angle(i)*degree - pi, torques, error, cams, bearings)
          if (allocated(error)) return
-         call camshaft_values(solved%case, torques, result%series_values(i, columns(1):columns(2)), bearings)
+         call camshaft_values(solved%case, torques, row(columns(1):columns(2)), bearings)
+         result%series_values(i, columns(1):columns(2)) = row(columns(1):columns(2))
       end do
    end subroutine sample_output
 
@@ -371,6 +373,7 @@ contains
       type(contact_t) :: nearby
       type(trail_t) :: trail
       real(wp) :: angle ! [rad]
+      real(wp) :: row(size(result%series)) ! [unit of each series]
       integer :: columns(2), i, hint
 
       hint = 1
@@ -385,7 +388,10 @@ contains
             if (allocated(error)) return
             call extend_trail(trail, angle, state%contact)
             turn%values(:, i) = cam_values(model, state)
-            if (is_wanted) call follower_values(solved%case, model, state, result%series_values(i, columns(1):columns(2)))
+            if (is_wanted) then
+               call follower_values(solved%case, model, state, row(columns(1):columns(2)))
+               result%series_values(i, columns(1):columns(2)) = row(columns(1):columns(2))
+            end if
          end do
       end associate
    end subroutine solve_turn

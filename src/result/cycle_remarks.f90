@@ -298,18 +298,23 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      character(len=:), allocatable :: verdict
+      character(len=:), allocatable :: text
       ! Mean of the logarithm of the shear's factor there, over time [-]
       real(wp) :: excess
 
       excess = statistics%rigid_excess/statistics%rigid_share
-      verdict = "is there, on average, about "//number_text(exp(abs(excess)), 2)//" times too "// &
-         & merge("large", "small", excess > 0.0_wp)
-      if (abs(excess) < log(shear_ratio_allowed)) verdict = "is too small in some places and too large in others"
-      call add_remark(remarks, rigid_contact, "the roller slips for "//number_text(100.0_wp*statistics%rigid_share, 3)// &
-         & " % of the cycle where the contact is nearly rigid: the shear of the film over the strip of the dry contact "// &
-         & verdict//", and slip is off with it; traction.sheared_zone = 'rigid_to_elastic' is for such contacts", &
-         & 100.0_wp*statistics%rigid_share)
+      text = "the roller slips for "
+      call append_number(text, 100.0_wp*statistics%rigid_share, 3)
+      text = text//" % of the cycle where the contact is nearly rigid: the shear of the film over the strip of the dry contact is "
+      if (abs(excess) < log(shear_ratio_allowed)) then
+         text = text//"too small in some places and too large in others"
+      else
+         text = text//"there, on average, about "
+         call append_number(text, exp(abs(excess)), 2)
+         text = text//" times too "//merge("large", "small", excess > 0.0_wp)
+      end if
+      call add_remark(remarks, rigid_contact, text//", and slip is off with it; traction.sheared_zone = 'rigid_to_elastic' is "// &
+         & "for such contacts", 100.0_wp*statistics%rigid_share)
    end subroutine check_rigid
 
 end module camroller_cycle_remarks

@@ -133,13 +133,12 @@ contains
       !> State of the follower
       type(state_t), intent(in) :: state
       !> Values, in the order of `list_series` [unit of the series]
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), target, contiguous :: values(:)
 
       type(quantity_list_t) :: list
 
-      allocate (list%values(size(values)))
+      list%room => values
       call add_follower(list, case, model, state)
-      values = list%values(:list%count)
    end subroutine follower_values
 
    !> Values of the series of the camshafts.
@@ -149,7 +148,7 @@ contains
       !> Torques on each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(:, :)
       !> Values, in the order of `list_series` [unit of the series]
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), target, contiguous :: values(:)
       !> States of the bearings, shape (bearing, camshaft); without them their series are zero
       type(bearing_state_t), intent(in), optional :: bearings(:, :)
       !> Which torques the case has, by `torque_rows`, where the caller asks often
@@ -157,13 +156,12 @@ contains
 
       type(quantity_list_t) :: list
 
-      allocate (list%values(size(values)))
+      list%room => values
       if (present(has)) then
          call add_camshafts(list, case, has, torques, bearings)
       else
          call add_camshafts(list, case, torque_rows(case), torques, bearings)
       end if
-      values = list%values(:list%count)
    end subroutine camshaft_values
 
    !> Values of the series of one follower, then of the camshafts, with the follower on the first one.
@@ -177,7 +175,7 @@ contains
       !> Torques, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(torque_count)
       !> Values [unit of the series]
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), target, contiguous :: values(:)
 
       type(quantity_list_t) :: list
       ! Torques on each camshaft [N m], last the energy residual [W]
@@ -185,10 +183,9 @@ contains
 
       of_shafts = 0.0_wp
       of_shafts(:, 1) = torques
-      allocate (list%values(size(values)))
+      list%room => values
       call add_follower(list, case, model, state)
       call add_camshafts(list, case, torque_rows(case), of_shafts)
-      values = list%values(:list%count)
    end subroutine series_values
 
    !> Append a series: its value alone, without a call, where no names are wanted.
@@ -202,11 +199,11 @@ contains
       !> Magnitude below which it counts as none; 0 where absent [unit of the quantity]
       real(wp), intent(in), optional :: least
 
-      if (allocated(list%items) .or. list%count == size(list%values)) then
-         call append_quantity(list, name, unit, description, source, value, least=least)
-      else
+      if (associated(list%room)) then
          list%count = list%count + 1
-         list%values(list%count) = value
+         list%room(list%count) = value
+      else
+         call append_quantity(list, name, unit, description, source, value, least=least)
       end if
    end subroutine add
 

@@ -16,8 +16,8 @@ module camroller_result
       & get_series, get_summary, find_quantity, check_numbers, is_film, lobe_scope, severest, worse_of
    public :: scope_length, series_name_length, scope_camshaft, scope_engine, scope_case
 
-   !> Length of a scope
-   integer, parameter :: scope_length = 28
+   !> Length of a scope, and of a unit
+   integer, parameter :: scope_length = 28, unit_length = 16
    !> Length of the longest name of a series with room to spare: `camshaft_10_bearing_10_temperature_rise` has 39 letters
    integer, parameter :: series_name_length = 64
    !> Scopes beside those of `lobe_scope`: all followers and bearings of the camshaft, which has a number where there are several;
@@ -26,14 +26,14 @@ module camroller_result
 
    !> What a column of numbers means
    type :: quantity_t
-      !> Name in files and in `get_series`
+      !> Name in files and in `get_series`, no blanks behind it
       character(len=:), allocatable :: name
       !> SI unit, `1` for none, `degree` for the cam angle
-      character(len=:), allocatable :: unit
+      character(len=unit_length) :: unit = "1"
       !> Meaning in a few words
       character(len=:), allocatable :: description
       !> Part of the model that it comes from, e.g. `asperity`
-      character(len=:), allocatable :: source
+      character(len=name_length) :: source = ""
       !> What it belongs to: `lobe 1` or `lobe 2` for one follower of that lobe shape, `camshaft`, `camshaft 1`, `bearing 1`,
       !> `camshaft 1 bearing 1`, `engine`, or `case`
       character(len=scope_length) :: scope = scope_case
@@ -50,6 +50,8 @@ module camroller_result
       real(wp), allocatable :: values(:)
       !> Their meaning; not allocated where values alone are wanted
       type(quantity_t), allocatable :: items(:)
+      !> Room of the caller for values alone, as many as there are; without it the list has its own [unit of the quantity]
+      real(wp), pointer, contiguous :: room(:) => null()
    end type quantity_list_t
 
    !> Result of one case
@@ -150,7 +152,7 @@ contains
 
    !> Append a quantity to a list, which grows as it has to.
    pure subroutine append_quantity(list, name, unit, description, source, value, scope, least)
-      !> The list; it has room for something, and items where names are wanted
+      !> The list; it has room of the caller, or some of its own, and items where names are wanted
       type(quantity_list_t), intent(inout) :: list
       !> Name, unit, meaning, part of the model
       character(len=*), intent(in) :: name, unit, description, source
@@ -165,6 +167,11 @@ contains
       ! Longer list of values [unit of each]
       real(wp), allocatable :: values(:)
 
+      if (associated(list%room)) then
+         list%count = list%count + 1
+         list%room(list%count) = value
+         return
+      end if
       if (list%count == size(list%values)) then
          allocate (values(2*list%count + 16))
          values(:list%count) = list%values(:list%count)
@@ -182,7 +189,7 @@ contains
          item%name = trim(name)
          item%unit = unit
          item%description = trim(description)
-         item%source = trim(source)
+         item%source = source
          if (present(scope)) item%scope = scope
          if (present(least)) item%least = least
       end associate
@@ -221,9 +228,9 @@ contains
 
       do i = 1, size(from)
          call move_alloc(from(i)%name, to(i)%name)
-         call move_alloc(from(i)%unit, to(i)%unit)
+         to(i)%unit = from(i)%unit
          call move_alloc(from(i)%description, to(i)%description)
-         call move_alloc(from(i)%source, to(i)%source)
+         to(i)%source = from(i)%source
          to(i)%scope = from(i)%scope
          to(i)%may_be_infinite = from(i)%may_be_infinite
          to(i)%least = from(i)%least
@@ -251,7 +258,12 @@ contains
       !> Position, or 0
       integer :: position
 
+      integer :: length
+
+      length = len_trim(name)
       do position = 1, size(quantities)
+         ! Most names differ in length, which is told faster than whether texts are the same
+         if (len(quantities(position)%name) /= length) cycle
          if (quantities(position)%name == name) return
       end do
       position = 0

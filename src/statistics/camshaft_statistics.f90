@@ -158,7 +158,7 @@ contains
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: x
       !> The torques [N m], the series [unit of each]
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), contiguous :: values(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
@@ -479,7 +479,7 @@ contains
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: angle
       !> The series [unit of the series]
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), contiguous :: values(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
       !> What each cam takes from its follower, shape (value, cam) [N m, N]; without it the curves say so

@@ -116,7 +116,7 @@ contains
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: x
       !> Values of the series [unit of the series], then the torques [N m], last the energy residual [W]
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), contiguous :: values(:)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -196,7 +196,7 @@ contains
       !> The state
       type(state_t), intent(in) :: state
       !> Values of the series [unit of the series], then the torques [N m], last the energy residual [W]
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), contiguous :: values(:)
 
       ! Torques of the follower [N m]
       real(wp) :: torques(torque_count)

@@ -165,13 +165,34 @@ contains
          end if
          error = points%errors(i) + first*points%shares(i)
          call evaluate_difference(points, samples, i, error, differences)
-         signed = signed + points%weight(i)*differences
-         sizes = sizes + points%weight(i)*abs(differences)
-         errors%lowest = min(errors%lowest, points%values(:, i) - differences)
-         errors%highest = max(errors%highest, points%values(:, i) - differences)
-         if (is_last) errors%integrals = errors%integrals + margin*max(abs(signed), distrust*sizes)
+         call add_differences(size(differences), points%weight(i), points%values(:, i), differences, signed, sizes, &
+            & errors%lowest, errors%highest)
+         if (is_last) errors%integrals(:) = errors%integrals + margin*max(abs(signed), distrust*sizes)
       end do
    end subroutine find_slip_errors
+
+   !> Add the differences at a point to integrals and extremes: in one pass, for there are many points.
+   pure subroutine add_differences(count, weight, values, differences, signed, sizes, lowest, highest)
+      !> Number of quantities
+      integer, intent(in) :: count
+      !> Length that the point represents [rad]
+      real(wp), intent(in) :: weight
+      !> What was sampled there, and what of it the error makes [unit of each]
+      real(wp), intent(in) :: values(count), differences(count)
+      !> Integrals of the differences and of their magnitudes [unit of each times rad]
+      real(wp), intent(inout) :: signed(count), sizes(count)
+      !> Smallest and largest values without the error [unit of each]
+      real(wp), intent(inout) :: lowest(count), highest(count)
+
+      integer :: i
+
+      do i = 1, count
+         signed(i) = signed(i) + weight*differences(i)
+         sizes(i) = sizes(i) + weight*abs(differences(i))
+         lowest(i) = min(lowest(i), values(i) - differences(i))
+         highest(i) = max(highest(i), values(i) - differences(i))
+      end do
+   end subroutine add_differences
 
    !> Error of a smallest or largest value: by how much the error of the sliding speed changes it where it is, or by how much a
    !> point would exceed it without that error.
@@ -321,17 +342,15 @@ contains
       !> Error of the trajectory there [m/s]
       real(wp), intent(in) :: error
       !> The differences [unit of each]
-      real(wp), intent(out) :: differences(:)
+      real(wp), intent(out), contiguous :: differences(:)
 
       type(state_t) :: right
-      ! Values without the error [unit of each]
-      real(wp) :: values(size(differences))
       integer :: status
 
       call state_without(samples%model, samples%cycle, points%angle(place), points%states(place), error, right, status)
       if (status == 0) then
-         call sampled_values(samples, right, values)
-         differences = points%values(:, place) - values
+         call sampled_values(samples, right, differences)
+         differences = points%values(:, place) - differences
       else
          ! So far off that there is no state: the error is unknown there
          differences = points%values(:, place)

@@ -63,7 +63,7 @@ contains
       allocate (more(n + 1))
       if (n > 0) more(:n) = columns
       ! Component by component: a constructor with components of deferred length leaves memory behind in gfortran 12
-      more(n + 1)%name = name
+      more(n + 1)%name = trim(name)
       more(n + 1)%unit = unit
       more(n + 1)%description = description
       more(n + 1)%source = source

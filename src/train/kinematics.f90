@@ -188,7 +188,7 @@ contains
    !> `V_roll = omega (M - r_R)`: `doc/theory.md`.
    !> Note: written in curvatures, so that straight and hollow flanks are regular.
    !> The caller has checked that the lift keeps `|cos(gamma + chi)| < 1`; status is not 0 where it does not.
-   pure subroutine evaluate_position(linkage, lift, position, status, path_only)
+   pure subroutine evaluate_position(linkage, lift, position, status, path_only, without_slopes)
       !> Constants of the mechanism
       type(linkage_t), intent(in) :: linkage
       !> Lift and its first three derivatives with respect to the cam angle [m, m/rad, m/rad^2, m/rad^3]
@@ -199,15 +199,15 @@ contains
       integer, intent(out) :: status
       !> Are path of the roller's centre over the cam, its curvature, its arms and the slope of the finger all that is wanted?
       logical, intent(in), optional :: path_only
+      !> Is all wanted but the slopes of arms, travels and radius, and the third derivatives of lift and finger?
+      logical, intent(in), optional :: without_slopes
 
       ! cos and sin of gamma + chi; cos and sin of s [-]
       real(wp) :: cos_pad, sin_pad, cos_s, sin_s
-      ! gamma', gamma'', gamma''' and g = 1 + sense gamma' [-]
-      real(wp) :: gamma_1, gamma_2, gamma_3, g
-      ! dg/d(cam angle) [1/rad]
-      real(wp) :: g_1
-      ! M, dM/d(cam angle) [m]; L2 and its derivative [m^2]
-      real(wp) :: m, m_1, l2, l2_1
+      ! gamma', gamma'' and g = 1 + sense gamma' [-]
+      real(wp) :: gamma_1, gamma_2, g
+      ! M [m]; L2 [m^2]
+      real(wp) :: m, l2
       ! A D cos s and A D sin s [m^2]
       real(wp) :: ad_cos, ad_sin
 
@@ -242,29 +242,44 @@ contains
       position%lift_slope = lift(1)
       position%lift_curvature = lift(2)
       position%arm_angle = acos(cos_pad) + linkage%arm_offset
-      gamma_3 = (lift(3)/linkage%b - 3.0_wp*cos_pad*gamma_1*gamma_2 + sin_pad*gamma_1**3)/sin_pad
       position%finger_curvature = gamma_2
-      g_1 = linkage%sense*gamma_2
-      m_1 = (linkage%a**2*g*g_1 - ad_cos*g_1 + ad_sin*g*gamma_1)/m
-      l2_1 = 3.0_wp*(linkage%a*g)**2*g_1 - ad_sin*gamma_3 - ad_cos*gamma_1*gamma_2 &
-         & - ad_cos*(1.0_wp + 2.0_wp*g)*g_1 + ad_sin*g*(1.0_wp + g)*gamma_1
-
       position%equivalent_radius = linkage%roller_radius*(1.0_wp - linkage%roller_radius*position%pitch_curvature)
       position%surface_travel = m - linkage%roller_radius*l2/m**2
-      position%surface_travel_slope = m_1 - linkage%roller_radius*(l2_1 - 2.0_wp*l2*m_1/m)/m**2
       position%parallel_arm = linkage%a*(sin_s*linkage%axis_cosine + cos_s*linkage%axis_sine)
       position%cam_arm = (linkage%d**2 + linkage%a**2*g - ad_cos*(1.0_wp + g))/m - linkage%roller_radius
-      position%rolling_travel_slope = m_1
+      if (present(without_slopes)) then
+         if (without_slopes) return
+      end if
+      call add_slopes(position)
 
-      position%lift_jerk = lift(3)
-      position%finger_jerk = gamma_3
-      position%valve_arm_slope = linkage%b*cos_pad*gamma_1
-      position%normal_arm_slope = (ad_cos*gamma_1 - position%normal_arm*m_1)/m
-      position%parallel_arm_slope = linkage%a*gamma_1*(cos_s*linkage%axis_cosine - sin_s*linkage%axis_sine)
-      position%tangent_arm_slope = -(ad_sin*gamma_1 + linkage%a**2*g_1 + position%tangent_arm*m_1)/m
-      position%radius_slope = -linkage%roller_radius**2*(l2_1 - 3.0_wp*l2*m_1/m)/m**3
-      position%rolling_travel_curvature = (linkage%a**2*(g_1**2 + linkage%sense*g*gamma_3) - linkage%sense*ad_cos*gamma_3 &
-         & + 2.0_wp*ad_sin*gamma_1*g_1 + g*(ad_cos*gamma_1**2 + ad_sin*gamma_2) - m_1**2)/m
+   contains
+
+      !> Slopes, and the third derivatives.
+      pure subroutine add_slopes(position)
+         !> Geometry without them; out: with them
+         type(position_t), intent(inout) :: position
+
+         ! gamma''' [-], derivatives over the cam angle of g [1/rad], of M [m], of L2 [m^2]
+         real(wp) :: gamma_3, g_1, m_1, l2_1
+
+         gamma_3 = (lift(3)/linkage%b - 3.0_wp*cos_pad*gamma_1*gamma_2 + sin_pad*gamma_1**3)/sin_pad
+         g_1 = linkage%sense*gamma_2
+         m_1 = (linkage%a**2*g*g_1 - ad_cos*g_1 + ad_sin*g*gamma_1)/m
+         l2_1 = 3.0_wp*(linkage%a*g)**2*g_1 - ad_sin*gamma_3 - ad_cos*gamma_1*gamma_2 &
+            & - ad_cos*(1.0_wp + 2.0_wp*g)*g_1 + ad_sin*g*(1.0_wp + g)*gamma_1
+         position%surface_travel_slope = m_1 - linkage%roller_radius*(l2_1 - 2.0_wp*l2*m_1/m)/m**2
+         position%rolling_travel_slope = m_1
+         position%lift_jerk = lift(3)
+         position%finger_jerk = gamma_3
+         position%valve_arm_slope = linkage%b*cos_pad*gamma_1
+         position%normal_arm_slope = (ad_cos*gamma_1 - position%normal_arm*m_1)/m
+         position%parallel_arm_slope = linkage%a*gamma_1*(cos_s*linkage%axis_cosine - sin_s*linkage%axis_sine)
+         position%tangent_arm_slope = -(ad_sin*gamma_1 + linkage%a**2*g_1 + position%tangent_arm*m_1)/m
+         position%radius_slope = -linkage%roller_radius**2*(l2_1 - 3.0_wp*l2*m_1/m)/m**3
+         position%rolling_travel_curvature = (linkage%a**2*(g_1**2 + linkage%sense*g*gamma_3) - linkage%sense*ad_cos*gamma_3 &
+            & + 2.0_wp*ad_sin*gamma_1*g_1 + g*(ad_cos*gamma_1**2 + ad_sin*gamma_2) - m_1**2)/m
+      end subroutine add_slopes
+
    end subroutine evaluate_position
 
 end module camroller_kinematics

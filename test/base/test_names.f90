@@ -2,7 +2,7 @@
 module test_names
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_error, only : error_t, kind_deck
-   use camroller_names, only : name_length, index_of_name, find_name, write_names
+   use camroller_names, only : name_length, are_same, index_of_name, find_name, write_names
    implicit none
    private
 
@@ -20,6 +20,7 @@ contains
       testsuite = [ &
          new_unittest("a known name is found at its place", known_name_is_found), &
          new_unittest("a part of a known name is no known name", part_is_unknown), &
+         new_unittest("names are the same whatever blanks are behind them", blanks_do_not_count), &
          new_unittest("an unknown name is a deck error that lists the known ones", unknown_name_is_an_error), &
          new_unittest("a list of names is quoted and separated", list_is_quoted) &
          ]
@@ -46,6 +47,21 @@ contains
       if (allocated(error)) return
       call check(error, index_of_name("", known), 0)
    end subroutine part_is_unknown
+
+   subroutine blanks_do_not_count(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: names(*) = [character(len=8) :: "", "barus", "baru", " barus", "barus a"]
+      integer :: i, k
+
+      do i = 1, size(names)
+         do k = 1, size(names)
+            call check(error, are_same(trim(names(i)), names(k)) .and. are_same(names(k), trim(names(i))) .eqv. i == k, &
+               & "'"//trim(names(i))//"' and '"//trim(names(k))//"'")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine blanks_do_not_count
 
    subroutine unknown_name_is_an_error(error)
       type(error_type), allocatable, intent(out) :: error

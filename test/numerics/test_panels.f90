@@ -48,7 +48,7 @@ contains
    subroutine sample_powers(self, x, values, error)
       class(powers_t), intent(inout) :: self
       real(wp), intent(in) :: x
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), contiguous :: values(:)
       type(error_t), allocatable, intent(out) :: error
       integer :: i
 
@@ -58,7 +58,7 @@ contains
    subroutine sample_shapes(self, x, values, error)
       class(shapes_t), intent(inout) :: self
       real(wp), intent(in) :: x
-      real(wp), intent(out) :: values(:)
+      real(wp), intent(out), contiguous :: values(:)
       type(error_t), allocatable, intent(out) :: error
 
       associate (beyond => max(x - self%place, 0.0_wp))

@@ -7,7 +7,7 @@ module sample_result
    use camroller_output, only : add_layout, output_t, write_outcome
    use camroller_output_kind, only : result_kind
    use camroller_remarks, only : remark_lines
-   use camroller_result, only : result_t
+   use camroller_result, only : quantity_t, result_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_numbers, read_text, read_text_attribute
    use camroller_system_file, only : process_number, remove_file
@@ -70,12 +70,10 @@ contains
 
       result%angle = [(360.0_wp*real(i - 1, wp)/real(angles, wp), i=1, angles)]
       allocate (result%series(2), result%summary(2), result%series_values(angles, 2))
-      call describe(result%series(1)%name, result%series(1)%unit, result%series(1)%description, result%series(1)%source, "load")
-      call describe(result%series(2)%name, result%series(2)%unit, result%series(2)%description, result%series(2)%source, "lift")
-      call describe(result%summary(1)%name, result%summary(1)%unit, result%summary(1)%description, &
-         & result%summary(1)%source, "mean_load")
-      call describe(result%summary(2)%name, result%summary(2)%unit, result%summary(2)%description, &
-         & result%summary(2)%source, "max_lift")
+      call describe(result%series(1), "load")
+      call describe(result%series(2), "lift")
+      call describe(result%summary(1), "mean_load")
+      call describe(result%summary(2), "max_lift")
       do j = 1, 2
          do i = 1, angles
             result%series_values(i, j) = sample_value(position, i, j)
@@ -86,16 +84,16 @@ contains
    end subroutine new_sample
 
    !> Fill the words of a quantity.
-   subroutine describe(name, unit, description, source, word)
-      !> Words of the quantity
-      character(len=:), allocatable, intent(out) :: name, unit, description, source
+   subroutine describe(quantity, word)
+      !> The quantity
+      type(quantity_t), intent(out) :: quantity
       !> Its name
       character(len=*), intent(in) :: word
 
-      name = word
-      unit = "N"
-      description = "a "//word
-      source = "sample"
+      quantity%name = word
+      quantity%unit = "N"
+      quantity%description = "a "//word
+      quantity%source = "sample"
    end subroutine describe
 
    !> A number that tells its place; exact in binary.
