@@ -562,11 +562,13 @@ def test_waves_unload_the_coils_by_what_the_series_of_the_modes_have(speed, chan
         series = {name: value[...].ravel() for name, value in file["series"].items()}
         initial = 1e-3 * float(dict(line.split("=") for line in changes).get("spring.precompression_mm", 0)) or \
             file["deck/values/spring.precompression_mm"][()] * 1e-3
+        # the series are those of the last turn, where turns differ
+        stated = file["turns/coil_ratio"][0, -1] if "turns" in file else summary["coil_ratio"]
     modes = [series[name] for name in sorted(series, key=len) if re.fullmatch(r"spring_mode_\d+", name)]
     places = np.linspace(0, 1, 400)
     added = sum(np.outer(np.cos(n * np.pi * places), n * np.pi * amplitude) for n, amplitude in enumerate(modes, 1))
     ratio = (-added.min(axis=0) / (initial + series["valve_lift"])).max()
-    assert 0.98 * summary["coil_ratio"] < ratio <= summary["coil_ratio"] * (1 + 1e-3)
+    assert 0.98 * stated < ratio <= stated * (1 + 1e-3)
     assert (summary["coil_ratio"] > 1) == unloads == ("waves in the spring take all compression" in warnings)
 
 
