@@ -61,30 +61,34 @@ contains
    end subroutine collect_spin_slopes
 
    !> Compare at a steady speed, and at one that changes by a tenth over a radian.
-   subroutine compare(error, model, words, share)
+   subroutine compare(error, model, words, share, apart)
       type(error_type), allocatable, intent(out) :: error
       type(model_t), intent(in) :: model
       character(len=*), intent(in) :: words
       !> Mobilised part of the boundary friction, where given [-]
       real(wp), intent(in), optional :: share
+      !> Degrees between two angles, where they are more than those about the event
+      integer, intent(in), optional :: apart
       type(model_t), target :: moving
 
       moving = model
-      call compare_all(error, moving, words, share)
+      call compare_all(error, moving, words, share, apart)
       if (allocated(error)) return
       moving%ramp%is_moving = .true.
       moving%ramp%speed = model%speed
       moving%speed_slope = 0.1_wp*model%speed
-      call compare_all(error, moving, words//", speed that changes", share)
+      call compare_all(error, moving, words//", speed that changes", share, apart)
    end subroutine compare
 
    !> Compare at angles of dwell, ramp and event and all slips.
-   subroutine compare_all(error, model, words, share)
+   subroutine compare_all(error, model, words, share, apart)
       type(error_type), allocatable, intent(out) :: error
       type(model_t), intent(in), target :: model
       character(len=*), intent(in) :: words
       !> Mobilised part of the boundary friction, where given [-]
       real(wp), intent(in), optional :: share
+      !> Degrees between two angles
+      integer, intent(in), optional :: apart
       type(spin_problem_t) :: problem
       type(linear_t) :: linear
       type(counters_t) :: counters
@@ -92,13 +96,15 @@ contains
       real(wp) :: angle, state(1), step, low(1), high(1)
       ! Derivatives by differences [1/rad], [m/s/rad^2]; size of the latter [m/s/rad^2]
       real(wp) :: slope, time_slope, scale
-      integer :: i, k, status
+      integer :: i, k, status, step_degrees
 
+      step_degrees = 7
+      if (present(apart)) step_degrees = apart
       problem%model => model
       if (present(share)) problem%mobilised = share
       call new_linear(linear, 1)
       do i = -9, 9
-         angle = (7*i + 1.1_wp)*degree
+         angle = (step_degrees*i + 1.1_wp)*degree
          do k = 1, size(slips)
             state = slips(k)*radius*model%speed
             call problem%linearise(angle, state, angle + 1.0_wp, linear, counters, status)
@@ -431,7 +437,7 @@ contains
             case%traction%rolling_law = rolling_law_names(law)
             call make_model(case, model, error)
             if (allocated(error)) return
-            call compare(error, model, case%traction%rolling_law)
+            call compare(error, model, case%traction%rolling_law, apart=18)
             if (allocated(error)) return
             call evaluate_state(model, 150.0_wp*degree, 0.3_wp, state, status)
             associate (resistance => abs(state%contact%rolling_resistance), load => state%contact%load)
