@@ -28,7 +28,7 @@ module camroller_number_text
    integer, parameter :: smallest_plain = -4, largest_plain = 7
    !> Digits that tell any two numbers apart
    integer, parameter :: all_digits = 17
-   !> Length that holds every number in the forms below
+   !> Length that holds every number in the forms below, and as formats want it
    integer, parameter :: number_length = 40
    character(len=*), parameter :: number_width = "40"
    !> Counts of digits as formats want them

@@ -31,12 +31,10 @@ module camroller_deck_values
    character(len=*), parameter :: number_words(*) = [character(len=23) :: "one number", "one whole number", "a list of numbers", &
       & "a list of whole numbers"]
 
-   !> Value of one key
-   type :: value_t
+   !> Value of one key, without the text that gave it
+   type :: bare_value_t
       !> Name of the key
       character(len=key_length) :: name = ""
-      !> As given, or the default, in the unit of the key; the settings of a single case do without it
-      character(len=:), allocatable :: text
       !> Numbers [SI unit]
       real(wp), allocatable :: numbers(:)
       !> Integers
@@ -55,6 +53,12 @@ module camroller_deck_values
       integer :: line = 0, column = 0, width = 0
       !> The words that gave it where it was not the deck
       character(len=:), allocatable :: source
+   end type bare_value_t
+
+   !> Value of one key
+   type, extends(bare_value_t) :: value_t
+      !> As given, or the default, in the unit of the key; the settings of a single case do without it
+      character(len=:), allocatable :: text
    end type value_t
 
 contains

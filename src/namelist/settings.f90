@@ -45,7 +45,8 @@ module camroller_settings
 
 contains
 
-   !> Settings for a case: without the texts of values as given, which only pages and files about a deck show. They are many.
+   !> Settings for a case: without the texts of values as given, which only pages and files about a deck show; their copies
+   !> would take 0.2 million instructions a case.
    pure subroutine copy_settings(from, to)
       !> The settings of a deck
       type(settings_t), intent(in) :: from
@@ -57,20 +58,7 @@ contains
       to%groups = from%groups
       allocate (to%values(size(from%values)))
       do i = 1, size(from%values)
-         associate (value => from%values(i), copy => to%values(i))
-            copy%name = value%name
-            if (allocated(value%numbers)) copy%numbers = value%numbers
-            if (allocated(value%integers)) copy%integers = value%integers
-            if (allocated(value%word)) copy%word = value%word
-            copy%flag = value%flag
-            copy%is_given = value%is_given
-            copy%is_known = value%is_known
-            copy%is_wrong = value%is_wrong
-            copy%line = value%line
-            copy%column = value%column
-            copy%width = value%width
-            if (allocated(value%source)) copy%source = value%source
-         end associate
+         to%values(i)%bare_value_t = from%values(i)%bare_value_t
       end do
    end subroutine copy_settings
 

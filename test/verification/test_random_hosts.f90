@@ -12,7 +12,6 @@ module test_random_hosts
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
    use camroller_deck_keys, only : new_schema
    use camroller_deck_schema, only : schema_t
-   use camroller_remarks, only : missed_means
    use camroller_result, only : result_t
    use camroller_run, only : run_case
    use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
@@ -100,7 +99,6 @@ contains
       type(error_t), allocatable :: error
       ! Mean friction torque of the run, what a torque of the turn may differ by, and what it differs by [N m]
       real(wp) :: friction, allowed, difference
-      real(wp) :: promised ! Error of the run's means over the friction torque [-]
       character(len=100) :: buffer
       integer :: i
 
@@ -120,11 +118,8 @@ contains
       end if
       if (.not. is_compared) return
       friction = scalar_of(result, "mean_torque_friction")
-      ! The accuracy of each, but of a run whose remarks say that its means miss it the error that they state, and what the steps
-      ! say of themselves beyond that
-      promised = accuracy
-      if (any(result%remarks%kind == missed_means)) promised = max(accuracy, scalar_of(result, "estimated_error_of_means"))
-      allowed = (accuracy + promised)*friction + turn%estimated_error
+      ! The accuracy of each, and what the steps say of themselves beyond that
+      allowed = 2.0_wp*accuracy*friction + turn%estimated_error
       difference = abs(turn%drive - scalar_of(result, "mean_torque_drive"))
       write (buffer, "(a, 2es10.2)") "drive torque differs by, over friction, allowed", [difference, allowed]/friction
       if (.not. difference <= allowed) trouble = trim(buffer)
