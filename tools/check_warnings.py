@@ -10,21 +10,35 @@ from __future__ import annotations
 
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 
-from fortran_source import ROOT
+from fortran_source import ROOT, sources
 
 
 def build_objects(flags: str) -> list[pathlib.Path]:
-    """Build everything, then ask for the objects of our own files."""
+    """Build everything, then ask for the objects of our own files. fpm names them within a second and goes on for two minutes, so it
+    is stopped as soon as it has named all."""
     fpm = [str(ROOT / "tools/fpm"), "build", "--tests", "--no-prune", "--flag", flags]
     built = subprocess.run(fpm, cwd=ROOT, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     if built.returncode:
         sys.exit(built.stdout + built.stderr)
-    listed = subprocess.run(fpm + ["--list"], cwd=ROOT, capture_output=True, text=True, check=True, stdin=subprocess.DEVNULL)
-    paths = [ROOT / line.strip() for line in (listed.stdout + listed.stderr).splitlines() if line.endswith(".o")]
-    return [path for path in paths if not path.name.startswith("build_dependencies")]
+    wanted = {str(path.relative_to(ROOT)).replace("/", "_") + ".o" for path in sources("src", "app", "test")}
+    found = []
+    with subprocess.Popen(fpm + ["--list"], cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, start_new_session=True) as listing:
+        for line in listing.stdout:
+            path = ROOT / line.strip()
+            if path.name in wanted:
+                wanted.discard(path.name)
+                found.append(path)
+            if not wanted:
+                os.killpg(listing.pid, signal.SIGKILL)
+                break
+    if wanted:
+        sys.exit("not compiled: " + " ".join(sorted(wanted)))
+    return found
 
 
 def main() -> int:
