@@ -10,7 +10,7 @@ module test_kept_models
    use camroller_case_sink, only : sink_t
    use camroller_deck, only : deck_t, override_t, parse_deck, make_sweep_case
    use camroller_deck_document, only : echo_t, get_echo
-   use camroller_deck_schema, only : key_t, find_group, find_key, type_integer, type_logical, type_name, type_number
+   use camroller_deck_schema, only : key_t, find_group, type_integer, type_logical, type_name, type_number
    use camroller_error, only : error_t
    use camroller_layout, only : layout_t
    use camroller_number_text, only : integer_text, number_text
@@ -78,7 +78,8 @@ contains
       count = 0
       do i = 1, size(echo%keys)
          point = index(echo%keys(i), ".")
-         position = find_key(deck%schema, find_group(deck%schema, echo%keys(i) (:point - 1)), trim(echo%keys(i) (point + 1:)))
+         position = findloc(deck%schema%keys%group == find_group(deck%schema, echo%keys(i) (:point - 1)) .and. &
+            & deck%schema%keys%name == echo%keys(i) (point + 1:), .true., 1)
          values = ""
          if (position > 0) values = other_values(deck%schema%keys(position), echo%values(i)%text)
          if (values == "" .or. index(echo%keys(i), "output.") == 1 .or. index(echo%keys(i), "numerics.") == 1) cycle
