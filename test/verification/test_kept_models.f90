@@ -2,7 +2,7 @@
 !> numerical film, whose tables are never kept.
 module test_kept_models
    use, intrinsic :: iso_fortran_env, only : int64
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_case, only : case_t
    use camroller_case_loop, only : sweep_cases
@@ -17,6 +17,7 @@ module test_kept_models
    use camroller_result, only : result_t
    use camroller_run, only : run_case
    use camroller_text_file, only : read_text_file
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -70,10 +71,7 @@ contains
          text = text(:index(text, "&sweep") - 1)
          call parse_deck(deck, text, "deck", "decks/", none, failure)
       end if
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call get_echo(deck, echo, .true.)
       count = 0
       do i = 1, size(echo%keys)
