@@ -6,8 +6,8 @@ module camroller_deck_sweep_keys
    use camroller_deck_complaint, only : complain, demand
    use camroller_mistakes, only : mistakes_t
    use camroller_names, only : name_length
-   use camroller_deck_schema, only : schema_t, add_group, add_integer, add_integers, add_name, add_number, add_text, &
-      & add_words, anything, from_to, group_effect, not_negative, positive
+   use camroller_deck_schema, only : schema_t, add_group, add_key, anything, from_to, group_effect, not_negative, positive, &
+      & type_integer, type_integers, type_name, type_number, type_text, type_words
    use camroller_deck_sweep, only : most_cases, scale_names, sweep_kind_names, sweep_size, sweep_t
    use camroller_number_text, only : counted, integer_text
    use camroller_settings, only : get_word, settings_t, take
@@ -32,21 +32,23 @@ contains
       type(schema_t), intent(inout) :: schema
 
       call add_group(schema, "sweep", group_effect, "many cases in one run, over up to eight keys or the columns of a table")
-      call add_name(schema, "kind", sweep_kind_names, sweep_kind_names(1), &
-         & "how cases are made: all combinations, the last key fastest; lists side by side; rows of a table; samples")
-      call add_integer(schema, "cases", from_to(1.0_wp, real(most_cases, wp)), "number of cases of a sample", &
+      call add_key(schema, "kind", type_name, "how cases are made: all combinations, the last key fastest; lists side by side; "// &
+         & "rows of a table; samples", choices=sweep_kind_names, default=trim(sweep_kind_names(1)))
+      call add_key(schema, "cases", type_integer, "number of cases of a sample", from_to(1.0_wp, real(most_cases, wp)), &
          & is_optional=.true.)
-      call add_integer(schema, "seed", not_negative, "seed of a sample; with 0 the Sobol sequence is as published", default=1)
-      call add_text(schema, "table", "file with a column for each key, named 'group.key', and a row for each case; "// &
+      call add_key(schema, "seed", type_integer, "seed of a sample; with 0 the Sobol sequence is as published", not_negative, &
+         & default="1")
+      call add_key(schema, "table", type_text, "file with a column for each key, named 'group.key', and a row for each case; "// &
          & "text or HDF5; kind 'table'", is_optional=.true.)
       call add_axis_keys(schema)
-      call add_name(schema, "series", series_choice_names, series_choice_names(series_none), &
-         & "cases whose series over the cam angle 'camroller sweep' writes; the summary is written for every case")
-      call add_integers(schema, "series_cases", not_negative, "numbers of these cases, from 0; series 'chosen'", is_optional=.true.)
-      call add_number(schema, "wall_time_limit_s", positive, &
-         & "time after which 'camroller sweep' stops, to be continued with --resume", is_optional=.true.)
-      call add_number(schema, "checkpoint_s", not_negative, "interval at which 'camroller sweep' flushes its "// &
-         & "results to disk", default=30.0_wp)
+      call add_key(schema, "series", type_name, "cases whose series over the cam angle 'camroller sweep' writes; the summary "// &
+         & "is written for every case", choices=series_choice_names, default=trim(series_choice_names(series_none)))
+      call add_key(schema, "series_cases", type_integers, "numbers of these cases, from 0; series 'chosen'", not_negative, &
+         & is_optional=.true.)
+      call add_key(schema, "wall_time_limit_s", type_number, "time after which 'camroller sweep' stops, to be continued with "// &
+         & "--resume", positive, is_optional=.true.)
+      call add_key(schema, "checkpoint_s", type_number, "interval at which 'camroller sweep' flushes its results to disk", &
+         & not_negative, default="30")
    end subroutine add_sweep_keys
 
    !> Series of which cases the command `sweep` writes.
@@ -103,13 +105,15 @@ contains
 
       do i = 1, sweep_key_count
          digit = integer_text(i)
-         call add_text(schema, "key_"//digit, "key that is varied, as 'group.key'", is_optional=.true.)
-         call add_words(schema, "values_"//digit, "its values; or give from, to and count (no count for samples)")
-         call add_number(schema, "from_"//digit, anything, "its first value", is_optional=.true.)
-         call add_number(schema, "to_"//digit, anything, "its last value", is_optional=.true.)
-         call add_integer(schema, "count_"//digit, from_to(2.0_wp, 1.0e6_wp), "number of values at equal distances", &
+         call add_key(schema, "key_"//digit, type_text, "key that is varied, as 'group.key'", is_optional=.true.)
+         call add_key(schema, "values_"//digit, type_words, "its values; or give from, to and count (no count for samples)", &
             & is_optional=.true.)
-         call add_name(schema, "scale_"//digit, scale_names, scale_names(1), "equal differences or equal ratios")
+         call add_key(schema, "from_"//digit, type_number, "its first value", anything, is_optional=.true.)
+         call add_key(schema, "to_"//digit, type_number, "its last value", anything, is_optional=.true.)
+         call add_key(schema, "count_"//digit, type_integer, "number of values at equal distances", from_to(2.0_wp, 1.0e6_wp), &
+            & is_optional=.true.)
+         call add_key(schema, "scale_"//digit, type_name, "equal differences or equal ratios", choices=scale_names, &
+            & default=trim(scale_names(1)))
       end do
    end subroutine add_axis_keys
 

@@ -11,15 +11,20 @@
 !> A key but a list has its variable's value as default, unless it has an example or may be left out. A key without a variable is
 !> taken by other means.
 module camroller_deck_binder
-   use camroller_deck_schema, only : schema_t, range_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
-      & add_numbers, add_integers, group_effect
+   use camroller_deck_schema, only : schema_t, range_t, add_group, add_key, group_effect, type_number, type_integer, type_logical, &
+      & type_name, type_text, type_numbers, type_integers
    use camroller_kinds, only : wp
    use camroller_names, only : are_same
+   use camroller_number_text, only : append_number, integer_text
    use camroller_settings, only : settings_t, find_value, group_position
+   use camroller_units, only : from_si, unit_of_key
    implicit none
    private
 
    public :: keys_t, declared_in, taken_from
+
+   !> Digits of a default that is converted to the unit of its key
+   integer, parameter :: default_digits = 12
 
    !> Keys that are declared in a schema, or taken from settings
    type :: keys_t
@@ -140,16 +145,20 @@ contains
       !> Ends of its usual range [unit of the key]
       real(wp), intent(in), optional :: usual(2)
 
+      character(len=:), allocatable :: default
       integer :: position
 
       if (.not. associated(keys%schema)) then
          call keys%find(name, position)
          if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%numbers(1)
-      else if (present(example) .or. present(is_optional)) then
-         call add_number(keys%schema, name, range, meaning, example=example, is_optional=is_optional, usual=usual)
-      else
-         call add_number(keys%schema, name, range, meaning, default=variable, usual=usual)
+         return
       end if
+      if (.not. (present(example) .or. present(is_optional))) then
+         default = ""
+         call append_number(default, from_si(unit_of_key(name), variable), default_digits)
+      end if
+      call add_key(keys%schema, name, type_number, meaning, range, default=default, example=example, is_optional=is_optional, &
+         & usual=usual)
    end subroutine number
 
    !> A whole number.
@@ -172,9 +181,9 @@ contains
          call keys%find(name, position)
          if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%integers(1)
       else if (present(example)) then
-         call add_integer(keys%schema, name, range, meaning, example=example)
+         call add_key(keys%schema, name, type_integer, meaning, range, example=example)
       else
-         call add_integer(keys%schema, name, range, meaning, default=variable)
+         call add_key(keys%schema, name, type_integer, meaning, range, default=integer_text(variable))
       end if
    end subroutine whole_number
 
@@ -191,7 +200,7 @@ contains
       integer :: position
 
       if (associated(keys%schema)) then
-         call add_logical(keys%schema, name, variable, meaning)
+         call add_key(keys%schema, name, type_logical, meaning, default=trim(merge(".true. ", ".false.", variable)))
          return
       end if
       call keys%find(name, position)
@@ -217,9 +226,9 @@ contains
          if (.not. present(variable)) return
          if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%word
       else if (present(variable)) then
-         call add_name(keys%schema, name, choices, variable, meaning)
+         call add_key(keys%schema, name, type_name, meaning, choices=choices, default=trim(variable))
       else
-         call add_name(keys%schema, name, choices, choices(1), meaning)
+         call add_key(keys%schema, name, type_name, meaning, choices=choices, default=trim(choices(1)))
       end if
    end subroutine choice
 
@@ -244,7 +253,7 @@ contains
          if (.not. present(variable)) return
          if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%word
       else
-         call add_text(keys%schema, name, meaning, variable, example, is_optional)
+         call add_key(keys%schema, name, type_text, meaning, default=variable, example=example, is_optional=is_optional)
       end if
    end subroutine text
 
@@ -269,7 +278,7 @@ contains
       integer :: position
 
       if (associated(keys%schema)) then
-         call add_numbers(keys%schema, name, range, meaning, example, is_optional, usual)
+         call add_key(keys%schema, name, type_numbers, meaning, range, example=example, is_optional=is_optional, usual=usual)
          return
       end if
       call keys%find(name, position)
@@ -295,7 +304,7 @@ contains
       integer :: position
 
       if (associated(keys%schema)) then
-         call add_integers(keys%schema, name, range, meaning, example, is_optional)
+         call add_key(keys%schema, name, type_integers, meaning, range, example=example, is_optional=is_optional)
          return
       end if
       call keys%find(name, position)

@@ -5,15 +5,14 @@
 module camroller_deck_schema
    use camroller_kinds, only : wp, celsius_zero
    use camroller_names, only : name_length, write_names
-   use camroller_units, only : unit_t, unit_of_key, from_si
+   use camroller_units, only : unit_t, unit_of_key
    use camroller_deck_text, only : to_lower
-   use camroller_number_text, only : append_number, number_text, integer_text
+   use camroller_number_text, only : number_text
    implicit none
    private
 
    public :: schema_t, key_t, range_t
-   public :: add_group, add_number, add_integer, add_logical, add_name, add_text, add_numbers, add_integers, add_words
-   public :: find_group, find_key, say_allowed, say_usual, group_names, key_names
+   public :: add_group, add_key, find_group, say_allowed, say_usual, group_names, key_names
    public :: group_required, group_standard, group_effect
    public :: type_number, type_integer, type_logical, type_name, type_text, type_numbers, type_integers, type_words
    public :: anything, positive, not_negative, proper_fraction, up_to, from_to, one_or_more, above_absolute_zero
@@ -28,9 +27,6 @@ module camroller_deck_schema
    !> Kinds of values
    integer, parameter :: type_number = 1, type_integer = 2, type_logical = 3, type_name = 4, type_text = 5, &
       & type_numbers = 6, type_integers = 7, type_words = 8
-
-   !> Digits of a default that is converted to the unit of its key
-   integer, parameter :: default_digits = 12
 
    !> Range of a number, in the unit of its key
    type :: range_t
@@ -155,8 +151,8 @@ contains
       end associate
    end subroutine add_group
 
-   !> Add a key to the last group.
-   subroutine add_key(schema, name, type, meaning, is_optional, example, range, usual)
+   !> Add a key to the last group. One with neither a default nor `is_optional` must be given.
+   subroutine add_key(schema, name, type, meaning, range, choices, default, example, is_optional, usual)
       !> Schema to add to
       type(schema_t), intent(inout) :: schema
       !> Name of the key
@@ -165,12 +161,16 @@ contains
       integer, intent(in) :: type
       !> What it means
       character(len=*), intent(in) :: meaning
-      !> May it be left out?
-      logical, intent(in) :: is_optional
+      !> Range of a number, or of each in a list
+      type(range_t), intent(in), optional :: range
+      !> Allowed names
+      character(len=*), intent(in), optional :: choices(:)
+      !> Value where it is not given, as a deck has it, but a name or a text without its quotes
+      character(len=*), intent(in), optional :: default
       !> Value for a deck that shows every key
       character(len=*), intent(in), optional :: example
-      !> Range of a number
-      type(range_t), intent(in), optional :: range
+      !> May it be left out without a default?
+      logical, intent(in), optional :: is_optional
       !> Ends of the range in which a remark does not ask whether the number is meant [unit of the key]
       real(wp), intent(in), optional :: usual(2)
 
@@ -190,165 +190,20 @@ contains
          key%lower_name = to_lower(name)
          key%type = type
          key%meaning = meaning
-         key%is_required = .not. is_optional
          key%unit = unit_of_key(name)
+         key%is_required = .not. (present(default) .or. present(is_optional))
+         if (present(default)) key%default = default
+         if (present(default) .and. any(type == [type_name, type_text])) key%default = "'"//default//"'"
          if (present(example)) key%example = example
          if (present(range)) key%range = range
          key%has_usual = present(usual)
          if (present(usual)) key%usual = range_t(usual(1), usual(2))
+         if (present(choices)) then
+            allocate (key%choices(size(choices)))
+            key%choices(:) = choices
+         end if
       end associate
    end subroutine add_key
-
-   !> Add a number.
-   subroutine add_number(schema, name, range, meaning, default, example, is_optional, usual)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> Range of its value
-      type(range_t), intent(in) :: range
-      !> What it means
-      character(len=*), intent(in) :: meaning
-      !> Value where it is not given [SI unit]
-      real(wp), intent(in), optional :: default
-      !> Value for a deck that shows every key
-      character(len=*), intent(in), optional :: example
-      !> May it be left out without a default?
-      logical, intent(in), optional :: is_optional
-      !> Ends of its usual range [unit of the key]
-      real(wp), intent(in), optional :: usual(2)
-
-      call add_key(schema, name, type_number, meaning, present(default) .or. present(is_optional), example, range, usual)
-      if (.not. present(default)) return
-      associate (key => schema%keys(schema%key_count))
-         key%default = ""
-         call append_number(key%default, from_si(key%unit, default), default_digits)
-      end associate
-   end subroutine add_number
-
-   !> Add an integer.
-   subroutine add_integer(schema, name, range, meaning, default, is_optional, example)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> Range of its value
-      type(range_t), intent(in) :: range
-      !> What it means
-      character(len=*), intent(in) :: meaning
-      !> Value where it is not given
-      integer, intent(in), optional :: default
-      !> May it be left out without a default?
-      logical, intent(in), optional :: is_optional
-      !> Value for a deck that shows every key
-      character(len=*), intent(in), optional :: example
-
-      call add_key(schema, name, type_integer, meaning, present(default) .or. present(is_optional), example, range)
-      if (present(default)) schema%keys(schema%key_count)%default = integer_text(default)
-   end subroutine add_integer
-
-   !> Add a choice of yes and no.
-   subroutine add_logical(schema, name, default, meaning)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> Value where it is not given
-      logical, intent(in) :: default
-      !> What it means
-      character(len=*), intent(in) :: meaning
-
-      call add_key(schema, name, type_logical, meaning, .true.)
-      schema%keys(schema%key_count)%default = trim(merge(".true. ", ".false.", default))
-   end subroutine add_logical
-
-   !> Add a choice by name.
-   subroutine add_name(schema, name, choices, default, meaning)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> Allowed names
-      character(len=*), intent(in) :: choices(:)
-      !> Value where it is not given
-      character(len=*), intent(in) :: default
-      !> What it means
-      character(len=*), intent(in) :: meaning
-
-      call add_key(schema, name, type_name, meaning, .true.)
-      schema%keys(schema%key_count)%default = "'"//trim(default)//"'"
-      allocate (schema%keys(schema%key_count)%choices(size(choices)))
-      schema%keys(schema%key_count)%choices(:) = choices
-   end subroutine add_name
-
-   !> Add a text.
-   subroutine add_text(schema, name, meaning, default, example, is_optional)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> What it means
-      character(len=*), intent(in) :: meaning
-      !> Value where it is not given
-      character(len=*), intent(in), optional :: default
-      !> Value for a deck that shows every key
-      character(len=*), intent(in), optional :: example
-      !> May it be left out without a default?
-      logical, intent(in), optional :: is_optional
-
-      call add_key(schema, name, type_text, meaning, present(default) .or. present(is_optional), example)
-      if (present(default)) schema%keys(schema%key_count)%default = "'"//default//"'"
-   end subroutine add_text
-
-   !> Add a list of numbers.
-   subroutine add_numbers(schema, name, range, meaning, example, is_optional, usual)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> Range of each value
-      type(range_t), intent(in) :: range
-      !> What it means
-      character(len=*), intent(in) :: meaning
-      !> Value for a deck that shows every key
-      character(len=*), intent(in), optional :: example
-      !> May it be left out?
-      logical, intent(in), optional :: is_optional
-      !> Ends of the usual range of each [unit of the key]
-      real(wp), intent(in), optional :: usual(2)
-
-      call add_key(schema, name, type_numbers, meaning, present(is_optional), example, range, usual)
-   end subroutine add_numbers
-
-   !> Add a list of integers.
-   subroutine add_integers(schema, name, range, meaning, example, is_optional)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> Range of each value
-      type(range_t), intent(in) :: range
-      !> What it means
-      character(len=*), intent(in) :: meaning
-      !> Value for a deck that shows every key
-      character(len=*), intent(in), optional :: example
-      !> May it be left out?
-      logical, intent(in), optional :: is_optional
-
-      call add_key(schema, name, type_integers, meaning, present(is_optional), example, range)
-   end subroutine add_integers
-
-   !> Add a list of words that are values of another key.
-   subroutine add_words(schema, name, meaning)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> What it means
-      character(len=*), intent(in) :: meaning
-
-      call add_key(schema, name, type_words, meaning, .true.)
-   end subroutine add_words
 
    !> Position of a group, 0 where it is unknown.
    pure function find_group(schema, name) result(position)
@@ -364,23 +219,6 @@ contains
       end do
       position = 0
    end function find_group
-
-   !> Position of a key of a group, 0 where it is unknown.
-   pure function find_key(schema, group, name) result(position)
-      !> Schema to look in
-      type(schema_t), intent(in) :: schema
-      !> Position of the group
-      integer, intent(in) :: group
-      !> Name of the key
-      character(len=*), intent(in) :: name
-      !> Its position
-      integer :: position
-
-      do position = schema%groups(group)%first, schema%groups(group)%last
-         if (schema%keys(position)%name == name) return
-      end do
-      position = 0
-   end function find_key
 
    !> Names of all groups.
    pure function group_names(schema) result(names)

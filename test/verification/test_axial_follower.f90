@@ -13,7 +13,7 @@ module test_axial_follower
    use camroller_simulation, only : advance, outcome_t, simulation_t, start_simulation
    use camroller_state, only : state_t, evaluate_state
    use case_twins, only : leave_constants_out, rescale_case
-   use closeness, only : expect_success
+   use closeness, only : has_failed
    use energy_checks, only : check_energy
    use reference_cases, only : thesis_case, skewed_case, make_model, set_point, add_gas_force, add_heat, point_speeds, &
       & point_viscosities
@@ -53,8 +53,7 @@ contains
       allocate (case%roller_profile)
       case%roller_profile%coupling = "none"
       if (.not. allocated(failure)) call run_case(case, with, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       do i = 1, size(without%series)
          k = find_quantity(with%series, without%series(i)%name)
          call check(error, k > 0, "a series is gone")
@@ -99,8 +98,7 @@ contains
          met_pressure = max(met_pressure, outcome%extremes%hertz_pressure)
          met_film = min(met_film, outcome%extremes%film_min)
       end do
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, pressure > 1.02_wp*hertz_pressure, "the pressure is the same all along the roller")
       if (allocated(error)) return
       call check(error, met_pressure, pressure, thr=close, rel=.true., message="pressure")
@@ -186,8 +184,7 @@ contains
          call run_case(case, loose, failure)
          case%numerics%tolerance = close
          if (.not. allocated(failure)) call run_case(case, tight, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          do k = 1, size(names)
             call get_summary(loose, trim(names(k)), one, failure)
             call get_summary(tight, trim(names(k)), other, failure)
@@ -226,8 +223,7 @@ contains
             case%numerics%method = methods(k)
             case%numerics%tolerance = 1.0e-6_wp
             call run_case(case, result, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             call get_summary(result, "mean_axial_pressure_place", means(k), failure)
             call get_summary(result, "min_axial_pressure_place", range(1), failure)
             call get_summary(result, "max_axial_pressure_place", range(2), failure)
@@ -250,28 +246,24 @@ contains
       case = thesis_case()
       case%roller_profile = roller_profile_t(tilt=1.0e-3_wp)
       call run_case(case, result, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, any(result%remarks%kind == cut_off_contact) .and. any(result%remarks%kind == unloaded_end), "askew")
       if (allocated(error)) return
       case%roller_profile = profiles(1)
       call run_case(case, result, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, .not. any(result%remarks%kind == cut_off_contact .or. result%remarks%kind == unloaded_end), "crowned")
       if (allocated(error)) return
       ! The film of the base circle at 25 degC is as thick as a tilt of 0.1 mrad is deep; a roller that stands straight has none
       call set_point(case, point_speeds(1), point_viscosities(1))
       case%roller_profile = roller_profile_t(tilt=1.0e-4_wp)
       call run_case(case, result, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, any(result%remarks%kind == oiled_slices), "oil beside the dry contact")
       if (allocated(error)) return
       case%roller_profile = roller_profile_t()
       call run_case(case, result, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, .not. any(result%remarks%kind == oiled_slices), "a cylinder that stands straight")
    end subroutine test_remarks
 

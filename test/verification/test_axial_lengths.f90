@@ -9,7 +9,7 @@ module test_axial_lengths
    use camroller_kinds, only : wp, pi
    use camroller_roller_profile, only : roller_profile_t
    use camroller_traction, only : line_lengths_t, rolling_biboulet_houpert, rolling_resistance, same_lengths
-   use closeness, only : check_close, check_scaled, expect_success
+   use closeness, only : check_close, check_scaled, expect_success, has_failed
    use roller_profiles, only : profiles
    implicit none
    private
@@ -45,8 +45,7 @@ contains
 
       do k = 1, 4
          call new_axial_part(part, profiles(k), roller_length, modulus, [5.0e-3_wp, 30.0e-3_wp], failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          do i = -10, 18
             load = 1.9_wp**i
             call effective_lengths(part, load, radius, middle, by_load, by_radius)
@@ -132,8 +131,7 @@ contains
       profile%profile = "crowned"
       profile%crown_radius = 3.0_wp
       call new_axial_part(part, profile, roller_length, modulus, [5.0e-3_wp, 30.0e-3_wp], failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       do i = -4, 5
          load = 2.0_wp*3.0_wp**i
          call effective_lengths(part, load, radius, lengths, unused(1), unused(2))
@@ -171,8 +169,7 @@ contains
       contacts = 0
       do k = 1, 4
          call new_axial_part(part, profiles(k), roller_length, modulus, [5.0e-3_wp, 30.0e-3_wp], failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          do i = 1, 8
             load = 10.0_wp*2.1_wp**i
             call slice_loads(part, load, radius, loads)
@@ -211,8 +208,7 @@ contains
       others = 0
       do k = 1, 4
          call new_axial_part(part, profiles(k), roller_length, modulus, [5.0e-3_wp, 30.0e-3_wp], failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          profile = profiles(k)
          do i = 1, 8
             load = 10.0_wp*2.1_wp**i

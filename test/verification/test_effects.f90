@@ -13,7 +13,7 @@ module test_effects
    use camroller_kept_models, only : kept_models_t
    use camroller_run, only : build_models, run_case, run_next_case
    use camroller_state, only : evaluate_state, state_t
-   use closeness, only : check_close, expect_success
+   use closeness, only : check_close, expect_success, has_failed
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, source_case, set_point, point_speeds, point_viscosities
    implicit none
@@ -137,8 +137,7 @@ contains
          revised = model
          if (.not. allocated(failure)) call revise_model(revised, variant, failure)
          if (.not. allocated(failure)) call new_model(new, variant, 1, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          do place = 1, size(angles)
             call evaluate_state(revised, angles(place), sliding_speed, states(1), status(1))
             call evaluate_state(new, angles(place), sliding_speed, states(2), status(2))
@@ -209,10 +208,7 @@ contains
       the_case%effects%select = "needed"
       the_case%effects%quantity = "slip"
       if (.not. allocated(failure)) call run_case(the_case, without, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call check(error, find_quantity(with%series, "lobe_2_contact_load") > 0 .and. find_quantity(with%series, &
          & "torque_bearings") > 0, "the case has no second lobe shape or no bearings")
       if (allocated(error)) return
@@ -254,10 +250,7 @@ contains
          end select
          call run_case(the_case, alone, failure)
          if (.not. allocated(failure)) call run_next_case(kept, trains(k), the_case, after, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          call check(error, all(same_bits(alone%series_values, after%series_values)) .and. &
             all(same_bits(alone%summary_values, after%summary_values)), "a bit has changed")
          if (allocated(error)) return

@@ -17,7 +17,7 @@ module test_ehl_law
    use camroller_ehl_films, only : ehl_films_t
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_torque_list, only : of_residual
-   use closeness, only : check_close, check_scaled, expect_success, expect_error
+   use closeness, only : check_close, check_scaled, expect_error, expect_success, has_failed
    use deck_cases, only : get_deck_case
    use ehl_contacts, only : contact_of_groups
    use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
@@ -80,8 +80,7 @@ contains
             groups = groups_t(speeds(1)*10.0_wp**(0.23_wp*i), 4440.0_wp, loads(1)*30.0_wp**(0.22_wp*k), 0.0_wp, 0.0_wp)
             contact = contact_of_groups(groups%load, groups%speed, groups%material, contact%modulus, contact%oil%viscosity)
             call solve_contact_film(contact, options, films, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             call new_film_line(line, law_table, groups, table)
             call film_at_load(line, groups%load, shape)
             call check_close(error, shape%minimum, films%minimum/contact%radius, 1.0e-2_wp, "smallest film of the table")
@@ -110,8 +109,7 @@ contains
       contact = contact_of_groups(1.0e-5_wp, 1.0e-11_wp, 4440.0_wp, 2.018e11_wp, 0.0305_wp)
       do i = 1, 2
          call build_film_table(tables(i), ehl_t(accuracy=accuracies(i)), contact%oil, contact%modulus, speeds, loads, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call check(error, tables(i)%error <= accuracies(i), "the accuracy is not reached")
          if (allocated(error)) return
       end do
@@ -125,8 +123,7 @@ contains
          if (mod(k, 3) == 0) groups%load = 2.2_wp*sqrt(groups%speed)*1.7_wp**(2.0_wp*draws(2) - 1.0_wp)
          contact = contact_of_groups(groups%load, groups%speed, groups%material, contact%modulus, contact%oil%viscosity)
          call solve_contact_film(contact, ehl_options_t(), films, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          do i = 1, 2
             call new_film_line(line, law_table, groups, tables(i))
             call film_at_load(line, groups%load, shape)
@@ -157,8 +154,7 @@ contains
       call random_seed(size=seed_size)
       do i = 1, size(decks)
          call get_deck_case("decks/"//trim(decks(i))//".nml", case, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          case%ehl = ehl_t(accuracy=accuracy)
          call make_model(case, model, error)
          if (allocated(error)) return
@@ -176,8 +172,7 @@ contains
             contact%line_load = groups%load*contact%modulus*contact%radius
             contact%entrainment_speed = groups%speed*contact%modulus*contact%radius/contact%oil%viscosity
             call solve_contact_film(contact, ehl_options_t(), films, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             call new_film_line(line, law_table, groups, model%film_table)
             call film_at_load(line, groups%load, shape)
             off = max(off, abs(log(shape%minimum*contact%radius/films%minimum)), &
@@ -286,13 +281,11 @@ contains
       do i = 1, 3
          contact = contact_of_groups(5.0e-5_wp, 1.0e-11_wp, 4440.0_wp, 2.018e11_wp, 0.0305_wp)
          call solve_contact_film(contact, ehl_options_t(), smooth, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          contact%roughness = smooth%minimum/(2.5_wp - 0.5_wp*i)
          call new_asperity_constants(contact%asperity, asperity_t(), contact%modulus)
          call solve_contact_film(contact, ehl_options_t(), rough, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          groups = groups_t(1.0e-11_wp, 4440.0_wp, 5.0e-5_wp, contact%roughness/contact%radius, 0.0_wp)
          call new_film_line(line, law_moes, groups)
          call share_load(line, groups%load, share, contact%asperity, 2.0_wp*half_width(contact%line_load, contact%radius, 1.0_wp, &
@@ -316,13 +309,11 @@ contains
 
       contact = contact_of_groups(3.0e-5_wp, 1.0e-11_wp, 4440.0_wp)
       call solve_contact_film(contact, ehl_options_t(), plain, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       contact%eyring_stress = 5.0e6_wp
       contact%has_flow_factors = .true.
       call solve_contact_film(contact, ehl_options_t(), films, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check_close(error, films%central, plain%central, epsilon(1.0_wp), "central film")
    end subroutine test_nothing
 
@@ -335,14 +326,12 @@ contains
 
       contact = contact_of_groups(3.0e-5_wp, 1.0e-11_wp, 4440.0_wp)
       call solve_contact_film(contact, ehl_options_t(), plain, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       contact%eyring_stress = 5.0e6_wp
       do i = 1, 3
          contact%sliding_speed = contact%entrainment_speed*0.05_wp*2**i
          call solve_contact_film(contact, ehl_options_t(), films, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call check(error, films%minimum < plain%minimum .and. films%shear_slope < plain%shear_slope, "no thinning")
          if (allocated(error)) return
          plain = films
@@ -351,8 +340,7 @@ contains
       contact%has_flow_factors = .true.
       contact%roughness = 0.5_wp*plain%minimum
       call solve_contact_film(contact, ehl_options_t(), films, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, films%central > plain%central, "no hindrance")
    end subroutine test_thinning
 
@@ -369,8 +357,7 @@ contains
          do k = 1, 2
             contact = contact_of_groups(10.0_wp**(i - 7), 10.0_wp**(k - 12), 4440.0_wp, 2.018e11_wp, 0.0305_wp)
             call solve_contact_film(contact, ehl_options_t(), films, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             call rolling_resistance(rolling_biboulet_houpert, 10.0_wp**(k - 12), 10.0_wp**(i - 7), contact%modulus, &
                & contact%radius, same_lengths(1.0_wp), contact%oil%pressure_viscosity, force, slope)
             call check_close(error, films%rolling, 1.07_wp*force, 0.07_wp, "rolling resistance")

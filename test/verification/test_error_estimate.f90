@@ -14,6 +14,7 @@ module test_error_estimate
    use camroller_study_trial, only : trial_t, errors_against, largest_deviation, run_trial
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, source_case, skewed_case, set_point, point_speeds, point_viscosities
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -280,10 +281,7 @@ contains
          if (.not. allocated(failure)) call run_case(the_case, result, failure)
          if (.not. allocated(failure)) call get_series(result, "sliding_speed", values, failure)
          if (.not. allocated(failure)) call get_summary(result, "estimated_error", estimate, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          write (words, "(a, 3es10.2)") "accuracy, error, estimate", the_case%numerics%accuracy, largest_deviation(values, right), &
             & estimate
          call check(error, largest_deviation(values, right) <= the_case%numerics%accuracy, words)
@@ -293,8 +291,7 @@ contains
       end do
       the_case%numerics%accuracy = 1.0e-15_wp
       call run_case(the_case, result, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, any(result%remarks%kind == missed_accuracy), remark_lines(result%remarks))
    end subroutine test_kept
 

@@ -10,7 +10,7 @@ module test_events
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_cam_check, only : check_geometry
    use camroller_events, only : find_stops, find_stops_between, cycle_stops, contact_losses
-   use closeness, only : check_scaled, expect_error, expect_success
+   use closeness, only : check_scaled, expect_error, has_failed
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
    private
@@ -269,8 +269,7 @@ contains
       call make_model(case, model, error)
       if (allocated(error)) return
       call check_geometry(model, 0.0_wp, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       ! a shorter event of the same lift has too sharp a nose: undercut round 180 deg
       case%lift%opening_half_angle = 36.0_wp*degree
       case%lift%closing_half_angle = 36.0_wp*degree
@@ -314,8 +313,7 @@ contains
          if (allocated(error)) return
          largest = -1.0_wp/hollow + case%mechanism%roller_radius
          call check_geometry(model, (1.0_wp - allowed)*largest, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call check_geometry(model, (1.0_wp + allowed)*largest, failure)
          call expect_error(error, failure, kind_domain, "grinding wheel")
          if (allocated(error)) return
@@ -346,8 +344,7 @@ contains
       ! radius of the flank: that of the pitch curve and the roller's
       largest = -1.0_wp/hollow + case%mechanism%roller_radius
       call check_geometry(model, 0.999_wp*largest, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check_geometry(model, 1.001_wp*largest, failure)
       call expect_error(error, failure, kind_domain, "grinding wheel")
    end subroutine test_wheel

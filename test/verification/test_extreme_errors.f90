@@ -22,6 +22,7 @@ module test_extreme_errors
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
    use result_checks, only : scalar_of
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -67,8 +68,7 @@ contains
          call get_deck_case("test/data/flexible_trains/beside_kink/deck.nml", the_case, failure, "numerics.tolerance="// &
             & tolerances(i))
          if (.not. allocated(failure)) call run_case(the_case, result, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          found(i) = scalar_of(result, "min_load_error")
       end do
       call check(error, maxval(found) - minval(found) < 1.0e-4_wp*maxval(abs(found)), "the smallest difference was not found")
@@ -104,8 +104,7 @@ contains
                cases(i)%numerics%tolerance = 10.0_wp**(-power)
                if (.not. allocated(failure)) call run_case(cases(i), result, failure)
                if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimate, failure)
-               if (allocated(failure)) call test_failed(error, failure%message)
-               if (allocated(error)) return
+               if (has_failed(failure, error)) return
                found = largest_error(result, reference)
                write (words, "(a, i2, 1x, a, 3es10.2)") "case", i, methods(method), cases(i)%numerics%tolerance, found, estimate
                ! The reference leaves a millionth at the end of its searches
@@ -160,8 +159,7 @@ contains
       the_case%numerics%accuracy = 1.0e-3_wp
       if (.not. allocated(failure)) call run_case(the_case, result, failure)
       if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimate, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       found = largest_error(result, reference)
       write (words, "(a, 2es10.2)") "error and estimate", found, estimate
       call check(error, found <= estimate, words)
@@ -213,8 +211,7 @@ contains
          if (.not. allocated(failure)) call get_summary(result, "min_lobe_2_traction", smallest, failure)
          if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimates(i), failure)
       end do
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       write (words, "(a, 2es11.3)") "difference over range, estimates", abs(largest(2) - largest(1))/(largest(1) - smallest), &
          & sum(estimates)
       call check(error, abs(largest(2) - largest(1)) <= sum(estimates)*(largest(1) - smallest), words)
@@ -245,8 +242,7 @@ contains
          if (.not. allocated(failure)) call get_summary(result, "min_flash_temperature_rise", smallest, failure)
          if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimates(i), failure)
       end do
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       write (words, "(a, 3es11.3)") "difference over range, estimates", abs(largest(2) - largest(1))/(largest(1) - smallest), &
          & estimates
       call check(error, abs(largest(2) - largest(1)) <= sum(estimates)*(largest(1) - smallest), words)
@@ -273,15 +269,13 @@ contains
       if (.not. allocated(failure)) call get_summary(result, "min_"//name, smallest, failure)
       if (.not. allocated(failure)) call get_summary(result, "max_"//name, largest, failure)
       if (.not. allocated(failure)) call get_series(result, name, series, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       write (words, "(a, 2es13.5)") "smallest value, smallest of the series", smallest, minval(series)
       call check(error, smallest <= minval(series) + 1.0e-5_wp*(largest - smallest), words)
       if (allocated(error)) return
       call get_deck_case("test/data/small_bearing_load/deck.nml", the_case, failure, "cam_bearings.bearing_series=.false.")
       if (.not. allocated(failure)) call run_case(the_case, without, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       do i = 1, size(without%summary)
          if (index(without%summary(i)%name, "m") /= 1) cycle
          associate (value => result%summary_values(find_quantity(result%summary, without%summary(i)%name)))
@@ -314,8 +308,7 @@ contains
          if (.not. allocated(failure)) call get_summary(result, "min_event_contact_load", smallest, failure)
          if (.not. allocated(failure)) call get_series(result, "contact_load", loads, failure)
          if (.not. allocated(failure)) call get_series(result, "valve_lift", lift, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          associate (least => minval(loads, lift > 5.0e-4_wp), range => maxval(loads) - minval(loads))
             write (words, "(a, 2f12.5)") "smallest load, smallest of the series", smallest, least
             call check(error, smallest <= least + 1.0e-5_wp*range .and. smallest >= least - 1.0e-3_wp*range, words)
@@ -352,8 +345,7 @@ contains
          if (.not. allocated(failure)) call integrate_cycle(cycles(1), models(1), the_case%numerics, failure)
          if (.not. allocated(failure)) call take_statistics(the_case, series, models, cycles, statistics, failure)
          if (.not. allocated(failure)) call search_extremes(the_case, series, models, cycles, statistics, margins, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          loads(i) = statistics(1)%event_load
       end do
       estimate = statistics(1)%extreme_errors(1, find_quantity(series, "contact_load"))
@@ -378,16 +370,14 @@ contains
       if (.not. allocated(failure)) call run_case(case, result, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
       if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), first_numerics(case%numerics), failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       allocate (values(follower_count(case), 2))
       hint = 1
       jumps = 0
       do stop = 1, size(cycle%stops)
          do side = 1, 2
             call state_at(cycle, models(1), cycle%stops(stop) + (2*side - 3)*1.0e-8_wp, hint, state, failure)
-            if (allocated(failure)) call test_failed(error, failure%message)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             call follower_values(case, models(1), state, values(:, side))
          end do
          do i = 1, size(values, 1)
@@ -469,13 +459,11 @@ contains
       deallocate (case%valve_guide)
       call run_case(case, result, failure)
       if (.not. allocated(failure)) call get_summary(result, "margin_event_speed", speed, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       do i = 1, size(factors)
          call set_point(case, factors(i)*speed, point_viscosities(3))
          call run_case(case, result, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call check(error, any(result%remarks%kind == film_without_limit) .eqv. i < 3, remark_lines(result%remarks))
          if (allocated(error)) return
          call check(error, any(result%remarks%kind == lost_contact) .eqv. i == 1, remark_lines(result%remarks))

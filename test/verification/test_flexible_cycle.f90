@@ -1,6 +1,6 @@
 !> Periodic states of a flexible train.
 module test_flexible_cycle
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi, degree
    use camroller_error, only : error_t, kind_domain
    use camroller_case, only : case_t, numerics_t
@@ -20,7 +20,7 @@ module test_flexible_cycle
    use flexible_cases, only : add_dynamics, stiff_case
    use camroller_train_outlook, only : find_outlook, outlook_t
    use labelled_table, only : label_length, read_table
-   use closeness, only : check_close, check_scaled
+   use closeness, only : check_close, check_scaled, has_failed
    implicit none
    private
 
@@ -120,8 +120,7 @@ contains
       if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 10.0_wp*tolerance, 60, failure)
       allocate (values(measure_count(merge(2, 1, allocated(model%flexible%adjuster)))))
       if (.not. allocated(failure)) call measure_turn(model, cycle%trajectory, cycle%resolution, values, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, cycle%period, 1, "the train is not periodic")
       if (allocated(error)) return
       ! Energy that drive and gallery bring is lost, but for what the period's end differs from its start
@@ -324,8 +323,7 @@ contains
       if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 0.0_wp, 1, failure)
       allocate (values(measure_count(1)))
       if (.not. allocated(failure)) call measure_turn(model, cycle%trajectory, cycle%resolution, values, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       do i = 1, size(columns)
          call check_close(error, values(places(i)), rows(columns(i), row), allowed, trim(names(i)))
          if (allocated(error)) return
@@ -389,8 +387,7 @@ contains
          cycle = flexible_cycle_t()
          if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 0.0_wp, 1, failure)
          if (.not. allocated(failure)) call measure_turn(model, cycle%trajectory, cycle%resolution, values(:, i), failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          ! 1 500 and 2 800; more than 50 000 where the sliding speed chatters
          call check(error, cycle%counters%accepted + cycle%counters%rejected < 5000*i, "steps of a turn")
          if (allocated(error)) return
@@ -465,10 +462,7 @@ contains
          do k = 30, 90
             angle = 0.5_wp*k*degree
             if (.not. allocated(failure)) call state_at(rigid_cycle, rigid, angle, rigid_hint, state, failure)
-            if (allocated(failure)) then
-               call test_failed(error, failure%message)
-               return
-            end if
+            if (has_failed(failure, error)) return
             call interpolate_state(cycle%trajectory, angle, hint, train)
             call evaluate_train(model, angle, train, cycle%resolution, now, status)
             differences(i) = max(differences(i), abs(now%contact%load - state%contact%load))

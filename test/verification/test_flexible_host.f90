@@ -11,7 +11,7 @@ module test_flexible_host
    use camroller_follower_step, only : follower_t
    use camroller_run, only : build_model
    use camroller_torque_list, only : of_bearings
-   use closeness, only : check_close, has_failed
+   use closeness, only : check_close, expect_error, has_failed
    use deck_cases, only : get_deck_case
    use driven_trains, only : train, steady, inputs_at, engine_case
    use flexible_cases, only : add_dynamics
@@ -175,9 +175,7 @@ contains
       character(len=*), intent(in) :: word
       type(error_type), allocatable, intent(out) :: error
 
-      call check(error, allocated(failure), "no error that names "//word)
-      if (allocated(error)) return
-      call check(error, failure%kind == kind_usage .and. index(failure%message, word) > 0, failure%message)
+      call expect_error(error, failure, kind_usage, word)
    end subroutine check_usage
 
    !> Whole turns as a host may come to them: multiplied, from degrees, from seconds at 17 turns a second. With this speed the first

@@ -1,6 +1,6 @@
 !> What a flexible train must keep: energy without dampers, accelerations where time runs backwards, results as tolerances shrink.
 module test_flexible_invariance
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t
@@ -15,7 +15,7 @@ module test_flexible_invariance
    use camroller_model, only : model_t
    use camroller_ode_problem, only : counters_t
    use camroller_trajectory, only : trajectory_t
-   use closeness, only : check_scaled
+   use closeness, only : check_scaled, has_failed
    use flexible_cases, only : add_dynamics, random_state, take_friction
    use reference_cases, only : make_model, set_point, skewed_case, thesis_case
    implicit none
@@ -63,8 +63,7 @@ contains
       call start_turns(turn, model, "rodas5p", 1.0e-4_wp, failure)
       if (.not. allocated(failure)) call rest_of_train(model, state, failure)
       if (.not. allocated(failure)) call integrate_turn(turn, state, trajectory, counters, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       allocate (angles(trajectory%count))
       do i = 1, trajectory%count
          call evaluate_train(model, trajectory%time(i), trajectory%state(:, i), resolution_t(), now, status)
@@ -117,15 +116,13 @@ contains
       if (allocated(error)) return
       call start_turns(turn, model, "rodas5p", tolerance, failure)
       if (.not. allocated(failure)) call rest_of_train(model, state, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       turn%stops = [-pi, -pi + speed*time]
       energies(0) = energy_of(-pi, state)
       state(at_speed) = struck
       energies(1) = energy_of(-pi, state)
       call integrate_turn(turn, state, trajectory, counters, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       energies(2) = energy_of(-pi + speed*time, state)
       change = abs(energies(2) - energies(1))/(energies(1) - energies(0))
       do i = 1, trajectory%count
@@ -237,8 +234,7 @@ contains
       if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 0.1_wp*tolerance, 60, failure)
       allocate (measures(measure_count(1)))
       if (.not. allocated(failure)) call measure_turn(model, cycle%trajectory, cycle%resolution, measures, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       values = [measures(largest_load)/700.0_wp, measures(drive_torque)/0.02_wp, measures(surge_force)/10.0_wp, &
          & measures(seating_speed)/0.1_wp]
    end subroutine measure

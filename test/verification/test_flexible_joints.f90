@@ -11,7 +11,7 @@ module test_flexible_joints
    use camroller_result, only : get_summary, result_t
    use camroller_run, only : run_case
    use camroller_sliding_friction, only : sliding_law_names, sliding_t
-   use closeness, only : check_scaled, expect_error
+   use closeness, only : check_scaled, expect_error, has_failed
    use flexible_cases, only : add_dynamics, add_joints, stiff_case
    use reference_cases, only : thesis_case
    implicit none
@@ -163,10 +163,7 @@ contains
       if (.not. allocated(failure)) call get_summary(result, "min_friction_guide_side", friction(2), failure)
       if (.not. allocated(failure)) call get_summary(result, "max_guide_upper_force", forces(1), failure)
       if (.not. allocated(failure)) call get_summary(result, "max_guide_lower_force", forces(2), failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       ! Both forces are largest there. The reversal leaves 0.99 of the peak, the curve 0.97
       call check(error, minval(abs(friction)) > 0.8_wp*the_case%guide_side_load%sliding%friction_coefficient*sum(forces), &
          & "peaks are not seen")
@@ -212,8 +209,7 @@ contains
          if (i == 3) the_case%guide_side_load%sliding%reversal_speed = 1.0e-9_wp
          if (i == 4) the_case%finger_pivot%sliding%reversal_speed = 1.0e-9_wp
          call new_model(model, the_case, 1, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call find_fastest(model, text)
          call check(error, index(text, trim(keys(i))) > 0, text)
          if (allocated(error)) return

@@ -16,7 +16,7 @@ module test_flexible_periods
    use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
    use camroller_turn_scatter, only : scatter_error
-   use closeness, only : check_scaled, expect_error, expect_success
+   use closeness, only : check_scaled, expect_error, expect_success, has_failed
    use deck_cases, only : get_deck_case
    use flexible_cases, only : add_dynamics
    use reference_cases, only : make_model, set_point, thesis_case
@@ -189,14 +189,16 @@ contains
       call expect_error(error, failure, kind_convergence, "surfaces of cam and roller move in opposite directions at one speed")
    end subroutine test_held
 
-   !> A turn takes two thousand steps.
-   subroutine test_work(error)
+   !> Look for the period of a train at 300 rev/min, whose turns take two thousand steps.
+   subroutine find_within(cycle, failure, error, most_work, most_search)
+      type(flexible_cycle_t), intent(out) :: cycle
+      type(error_t), allocatable, intent(out) :: failure
       type(error_type), allocatable, intent(out) :: error
+      ! Most steps of all turns, and of those that look for a period
+      integer, intent(in), optional :: most_work, most_search
       type(case_t) :: the_case
       type(model_t), target :: model
       type(turn_t) :: turn
-      type(flexible_cycle_t) :: cycle
-      type(error_t), allocatable :: failure
       ! State [state]
       real(wp), allocatable :: state(:)
 
@@ -206,9 +208,19 @@ contains
       call make_model(the_case, model, error)
       if (allocated(error)) return
       call start_turns(turn, model, "rodas5p", tolerance, failure)
-      turn%most_work = 300
+      if (present(most_work)) turn%most_work = most_work
+      if (present(most_search)) turn%most_search = most_search
       if (.not. allocated(failure)) call rest_of_train(model, state, failure)
       if (.not. allocated(failure)) call find_periodic(cycle, turn, state, closure, 5, failure)
+   end subroutine find_within
+
+   subroutine test_work(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(flexible_cycle_t) :: cycle
+      type(error_t), allocatable :: failure
+
+      call find_within(cycle, failure, error, most_work=300)
+      if (allocated(error)) return
       call check(error, allocated(failure), "the work has no end")
       if (allocated(error)) return
       ! The ball of the check valve: oil of 8.6e7 Pa in 0.3 cm^3, and 0.1 mm^3/s more a pascal
@@ -217,28 +229,14 @@ contains
          & failure%message)
    end subroutine test_work
 
-   !> A turn takes two thousand steps.
    subroutine test_search(error)
       type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: the_case
-      type(model_t), target :: model
-      type(turn_t) :: turn
       type(flexible_cycle_t) :: cycle
       type(error_t), allocatable :: failure
-      ! State [state]
-      real(wp), allocatable :: state(:)
 
-      the_case = thesis_case()
-      call set_point(the_case, 10.0_wp*pi, 0.01_wp)
-      call add_dynamics(the_case, 5, .true.)
-      call make_model(the_case, model, error)
+      call find_within(cycle, failure, error, most_search=300)
       if (allocated(error)) return
-      call start_turns(turn, model, "rodas5p", tolerance, failure)
-      turn%most_search = 300
-      if (.not. allocated(failure)) call rest_of_train(model, state, failure)
-      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, closure, 5, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, cycle%cycles == 1 .and. cycle%period == 0, "cycles that were tried: "//integer_text(cycle%cycles))
    end subroutine test_search
 
@@ -267,8 +265,7 @@ contains
       call start_turns(turn, model, "rodas5p", part*tolerance, failure)
       if (.not. allocated(failure)) call solve_flexible(solution, model, numerics_t(method="rodas5p", &
          & tolerance=part*tolerance/tolerance_ratio), failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, all([cycle%period, solution%cycle%period] == 1), "no period")
       if (allocated(error)) return
       ! It is two thirds; a coarse turn takes 0.4 of the steps
@@ -297,8 +294,7 @@ contains
       call make_model(the_case, model, error)
       if (allocated(error)) return
       call solve_flexible(solution, model, numerics_t(method="rodas5p", tolerance=1.2e-5_wp), failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, solution%cycle%period == 0 .and. .not. solution%is_cut_short .and. size(solution%turns) == 40, &
          & "period "//integer_text(solution%cycle%period))
       if (allocated(error)) return
@@ -317,8 +313,7 @@ contains
 
       do i = 1, size(speeds)
          call run_rattling(lash, speeds(i), accuracy, result, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          if (scalar_of(result, "period_cycles") > 0.5_wp .or. scalar_of(result, "estimated_error") <= accuracy) cycle
          call check(error, any(result%remarks%kind == missed_accuracy) .and. &
             & index(remark_lines(result%remarks), "is known by its statistics alone") > 0, remark_lines(result%remarks))
@@ -340,8 +335,7 @@ contains
 
       do i = 1, size(speeds)
          call run_rattling(lash, speeds(i), accuracy, result, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          if (scalar_of(result, "period_cycles") < 0.5_wp .and. nint(scalar_of(result, "summary_cycles")) == 40) exit
       end do
       call check(error, i <= size(speeds), "all speeds have a period")

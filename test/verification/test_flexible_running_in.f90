@@ -1,6 +1,6 @@
 !> Hours of running of a flexible train: what its turns do to places of the cam and to the roller.
 module test_flexible_running_in
-   use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_cam_surface, only : place_angle
    use camroller_case, only : case_t
    use camroller_cycle, only : cycle_t, integrate_cycle
@@ -16,6 +16,7 @@ module test_flexible_running_in
    use deck_cases, only : get_deck_case
    use flexible_cases, only : add_dynamics, stiff_case
    use reference_cases, only : make_model, set_point, thesis_case
+   use closeness, only : expect_error, has_failed
    implicit none
    private
 
@@ -69,8 +70,7 @@ contains
 
       do number = 1, 2
          call get_deck_case("decks/tribofilm.nml", the_case, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          deallocate (the_case%wear, the_case%tribofilm, the_case%running_in)
          the_case%operating_point%speed = merge(900.0_wp, 3140.0_wp, number == 1)*pi/30.0_wp
          call add_dynamics(the_case, merge(5, 2, number == 1), .false.)
@@ -81,8 +81,7 @@ contains
          fresh = model
          call run_in(the_case, model, aged, failure)
          if (.not. allocated(failure)) call integrate_cycle(cycle, fresh, the_case%numerics, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call check(error, cycle%flexible%cycle%period, number, "turns of a period")
          if (allocated(error)) return
          found = 0.0_wp
@@ -126,8 +125,7 @@ contains
       do i = 0, ubound(passed, 1)
          call follower_on_path(model, cycle%flexible%turns(turn), cycle%flexible%cycle%resolution, &
             & -pi + min(two_pi*i/ubound(passed, 1), two_pi*(1.0_wp - epsilon(1.0_wp))), hint, state, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          passed(i) = -pi + two_pi*i/ubound(passed, 1) + state%flexible%contact_turn
          rates(i, :) = 0.0_wp
          associate (contact => state%contact, film_law => the_case%tribofilm)
@@ -179,8 +177,7 @@ contains
          if (allocated(error)) return
          call run_in(flexible, models(1), aged(1), failure)
          if (.not. allocated(failure)) call run_in(rigid, models(2), aged(2), failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          associate (one => models(1)%surface, other => models(2)%surface)
             differences(:, i) = [sum(one%cam_film)/sum(other%cam_film), sum(one%cam_wear)/sum(other%cam_wear), &
                & one%roller_wear/other%roller_wear] - 1.0_wp
@@ -209,9 +206,7 @@ contains
       call make_model(the_case, model, error)
       if (allocated(error)) return
       call run_in(the_case, model, aged, failure)
-      call check(error, allocated(failure), "no error")
-      if (allocated(error)) return
-      call check(error, failure%kind == kind_domain .and. index(failure%message, "repeats itself") > 0, failure%message)
+      call expect_error(error, failure, kind_domain, "repeats itself")
    end subroutine test_aperiodic
 
 end module test_flexible_running_in

@@ -16,7 +16,7 @@ module test_flexible_twins
    use camroller_run, only : run_case
    use camroller_trajectory, only : trajectory_t
    use case_twins, only : dimension_of_unit, leave_constants_out, rescale_case
-   use closeness, only : check_scaled
+   use closeness, only : check_scaled, has_failed
    use flexible_cases, only : add_dynamics, random_state, take_friction
    use reference_cases, only : make_model, set_point, skewed_case, thesis_case
    use result_checks, only : scalar_of
@@ -75,10 +75,7 @@ contains
       fresh%turn%stops = ends(2:)
       if (.not. allocated(failure)) call drive_train(kept, model, numerics, 0.1_wp, one, steps(1), failure)
       if (.not. allocated(failure)) call drive_train(fresh, model, numerics, 0.1_wp, other, steps(2), failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call check(error, all(transfer(one, [0]) == transfer(other, [0])), "bits differ")
    end subroutine test_room
 
@@ -169,8 +166,7 @@ contains
          twin = the_case
          call rescale_case(twin, units(i))
          if (.not. allocated(failure)) call run_case(twin, other, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          do k = 1, size(names)
             associate (expected => scaled(units(i), scalar_of(one, trim(names(k))), dimension_of_unit(trim(units_of(k)))))
                call check_scaled(error, scalar_of(other, trim(names(k))), expected, abs(expected), allowed*tolerance, &
@@ -211,8 +207,7 @@ contains
       call reverse()
       if (.not. allocated(failure)) call turn_once(mirrored, failure)
       call reverse()
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check_scaled(error, state(at_lift), start(at_lift), 1.0e-5_wp, allowed, "lift")
       if (allocated(error)) return
       call check_scaled(error, state(at_speed), start(at_speed), 0.1_wp, allowed, "speed of the valve")

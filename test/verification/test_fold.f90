@@ -10,6 +10,7 @@ module test_fold
    use camroller_fold, only : has_fold, explain_end
    use reference_cases, only : thesis_case
    use random_decks, only : random_t, start_random, random_deck
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -56,8 +57,7 @@ contains
 
       call folded_case(case, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, has_fold(models(1), -30.0_wp*degree, large), "the fold is not seen")
       if (.not. allocated(error)) call check(error, .not. has_fold(models(1), 150.0_wp*degree, large), "a fold on the base circle")
       if (allocated(error)) return
@@ -75,8 +75,7 @@ contains
 
       call folded_case(case, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call explain_end(models(1), -30.0_wp*degree, large, failure)
       call check(error, .not. allocated(failure), "an error out of nothing")
       if (allocated(error)) return

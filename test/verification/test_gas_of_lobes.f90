@@ -15,7 +15,7 @@ module test_gas_of_lobes
    use camroller_run, only : build_models, run_case, run_next_case
    use camroller_saved_simulation, only : restore_simulation, save_simulation
    use camroller_simulation, only : simulation_t, start_simulation
-   use closeness, only : expect_error
+   use closeness, only : expect_error, has_failed
    use lobe_cases, only : two_lobes
    use reference_cases, only : skewed_case
    implicit none
@@ -109,8 +109,7 @@ contains
          do sense = 1, 2
             case = engine_case(strokes, senses(sense), [470.0_wp, 250.0_wp])
             call build_models(case, models, failure)
-            if (allocated(failure)) call test_failed(error, failure%message)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             associate (engine => case%engine, bearings => case%cam_bearings, turns => cam_turns(case%engine))
                do cam = 1, 2
                   do i = 1, 72
@@ -155,8 +154,7 @@ contains
          alone%gas_force%pressure(361) = alone%gas_force%pressure(1)
          call run_case(case, both, failure)
          if (.not. allocated(failure)) call run_case(alone, result, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          do i = 1, size(names)
             associate (second => both%series_values(:, find_quantity(both%series, "lobe_2_"//trim(names(i)))), &
                & by_hand => result%series_values(:, find_quantity(result%series, trim(names(i)))))
@@ -205,8 +203,7 @@ contains
       call run_case(case, alone, failure)
       if (.not. allocated(failure)) call run_next_case(kept, "a", before, after, failure)
       if (.not. allocated(failure)) call run_next_case(kept, "a", case, after, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, all(transfer(after%summary_values, [0_int64]) == transfer(alone%summary_values, [0_int64])), &
          & "a bit differs")
    end subroutine test_kept

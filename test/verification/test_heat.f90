@@ -17,7 +17,7 @@ module test_heat
    use camroller_state, only : state_t, evaluate_state
    use camroller_traction, only : cap_names
    use case_twins, only : leave_constants_out, rescale_case
-   use closeness, only : check_close, check_scaled, expect_error, expect_success
+   use closeness, only : check_close, check_scaled, expect_error, has_failed
    use lobe_cases, only : run
    use energy_checks, only : check_energy
    use reference_cases, only : thesis_case, skewed_case, make_model, set_point, add_gas_force, add_heat, point_speeds, &
@@ -344,8 +344,7 @@ contains
          case%operating_point%oil_temperature = temperatures(i)
          call new_model(model, case, 1, failure)
          if (.not. allocated(failure)) call get_oil(case%lubricant, temperatures(i) + rise, oil, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call warm_oil(model%heat%hot, model%oil, rise, warm, change, slope)
          if (i == 1) then
             call check(error, oil%pressure_viscosity > 1.1_wp*model%oil%pressure_viscosity, "an estimate that does not rise")

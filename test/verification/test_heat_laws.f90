@@ -1,6 +1,6 @@
 !> Laws of heat in inlet and contact, each by itself.
 module test_heat_laws
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, two_pi
    use camroller_bessel, only : scaled_bessel_k
    use camroller_error, only : error_t
@@ -11,7 +11,7 @@ module test_heat_laws
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, pressure_law_names, law_cameron, law_roelands
    use camroller_names, only : index_of_name
    use camroller_traction, only : law_newtonian, law_eyring, cap_smooth, limit_shear
-   use closeness, only : check_close, check_scaled, roundings
+   use closeness, only : check_close, check_scaled, has_failed, roundings
    use labelled_table, only : label_length, read_table
    implicit none
    private
@@ -328,8 +328,7 @@ contains
          call get_oil(lubricant, 320.0_wp, oil, failure)
          call new_heat_part(part, heat_t(), failure)
          call set_heat_oil(part, lubricant, 320.0_wp, oil, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          largest = 0.0_wp
          do i = 0, 60
             call get_oil(lubricant, 320.0_wp + i, warm, failure)
@@ -352,8 +351,7 @@ contains
          call get_oil(lubricant, 320.0_wp, oil, failure)
          call new_heat_part(part, heat_t(viscosity_fall=merge(0.03_wp, 0.0_wp, law == 1)), failure)
          call set_heat_oil(part, lubricant, 320.0_wp, oil, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call check_close(error, part%hot%pressure_fall, 0.2_wp/40.0_wp, roundings, "fall of the coefficient")
          if (allocated(error)) return
       end do
@@ -389,8 +387,7 @@ contains
          call get_oil(lubricant, 290.0_wp, oil, failure)
          call new_heat_part(part, heat_t(viscosity_fall=merge(0.03_wp, 0.0_wp, i == 2)), failure)
          call set_heat_oil(part, lubricant, 290.0_wp, oil, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          ranges(i) = hot_oil_range(part, lubricant, oil)
          if (i < 3) call check(error, ranges(i) > merge(1.0e3_wp, 29.9_wp, i == 1), trim(lubricant%temperature_law)//" is not met")
          if (allocated(error) .or. i < 3) cycle

@@ -16,7 +16,7 @@ module test_heat_remarks
    use camroller_remarks, only : add_remark, cool_bearings, cool_inlet, cool_pin, far_temperature, hot_film, insulated_metal, &
       & remark_lines, remark_t, rubbing_pin
    use camroller_result, only : result_t
-   use closeness, only : expect_success
+   use closeness, only : has_failed
    use deck_cases, only : get_deck_case
    use lobe_cases, only : run
    use reference_cases, only : point_speeds, point_viscosities, set_point, thesis_case
@@ -107,8 +107,7 @@ contains
 
       do i = 1, 2
          call get_deck_case("decks/plain_pin.nml", case, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          case%operating_point = operating_point_t(merge(1.0_wp, 300.0_wp, i == 1)*two_pi/60.0_wp, 298.15_wp)
          if (i == 2) case%needle_bearing%film%roughness = 2.0e-6_wp
          if (i == 2) case%spring%stiffness = 1.0e5_wp
@@ -299,8 +298,7 @@ contains
       call get_oil(lubricant, temperature, oil, failure)
       call new_heat_part(part, heat_t(viscosity_fall=0.05_wp), failure)
       call set_heat_oil(part, lubricant, temperature, oil, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call note_hot_film(hot, part, lubricant, oil, 29.0_wp, 0.0_wp, 0.0_wp, 0.25_wp)
       call compare_hot_oil(part, lubricant, oil, 10.0_wp, middle, has_law)
       call compare_hot_oil(part, lubricant, oil, 29.0_wp, last, has_law)
@@ -327,8 +325,7 @@ contains
 
       do i = 1, 3
          call get_deck_case("decks/heated_contact.nml", case, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          case%operating_point = operating_point_t(speed=2500.0_wp*two_pi/60.0_wp, oil_temperature=368.15_wp)
          if (i < 3) case%needle_bearing%friction_coefficient = 0.3_wp
          if (i > 1) then
@@ -358,8 +355,7 @@ contains
       integer :: i
 
       call get_deck_case("decks/heated_contact.nml", case, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       case%operating_point%oil_temperature = 298.15_wp
       case%lubricant%temperature_law = "walther"
       case%lubricant%temperature_points = case%lubricant%temperature_points([1, 3])
@@ -397,8 +393,7 @@ contains
       else
          call get_deck_case("decks/thesis.nml", case, failure)
       end if
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       case%operating_point = point
       call run(case, result, error)
    end subroutine solve

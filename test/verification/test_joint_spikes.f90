@@ -1,6 +1,6 @@
 !> Friction of sliding joints of which cold oil leaves nothing but spikes where the valve sets off, turns round and comes to rest.
 module test_joint_spikes
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_case, only : case_t
    use camroller_error, only : error_t
@@ -12,6 +12,7 @@ module test_joint_spikes
    use camroller_stem_friction, only : guide_side_load_t
    use camroller_torque_list, only : of_guide_side
    use reference_cases, only : thesis_case, set_point, point_viscosities
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -55,8 +56,7 @@ contains
          if (.not. allocated(failure)) call get_summary(result, "mean_torque_guide_side", found(1), failure)
          if (.not. allocated(failure)) call get_summary(result, "min_friction_guide_side", found(2), failure)
          if (.not. allocated(failure)) call get_summary(result, "max_friction_guide_side", found(3), failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          write (words, "(2a, 6es15.7)") trim(methods(i)), ":", found, right
          call check(error, all(abs(found - right) <= accuracy*abs(right)), words)
          if (allocated(error)) return

@@ -1,6 +1,6 @@
 !> Orbits of journals over the turn, cases with orbits.
 module test_journal_orbit
-   use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_bearing_asperity, only : bearing_asperity_t, bearing_state_t, carry_load, new_touch, bearing_touch_t
    use camroller_case, only : case_t
@@ -12,9 +12,11 @@ module test_journal_orbit
    use camroller_run, only : run_case
    use camroller_shaft_simulation, only : shaft_simulation_t, start_shaft
    use labelled_table, only : label_length, read_table
+   use lobe_cases, only : three_bearings
    use reference_cases, only : point_speeds, point_viscosities, set_point, thesis_case
    use result_checks, only : series_of
    use test_journal_motion, only : across, bearing_of
+   use closeness, only : expect_error, has_failed
    implicit none
    private
 
@@ -81,10 +83,7 @@ contains
          ! the load of their Sommerfeld number, 1/(pi q), in the direction (0.3, -1)
          load%pull = journal%unit_load/(pi*rows(3, i))/norm2([0.3_wp, 1.0_wp])
          call find_orbit(journal, 1.0_wp, load, [-pi, pi], 1.0e-6_wp, orbit, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          call place_at(orbit, 0.0_wp, hint, place)
          ! the fit's 11 % in the load change the eccentricity by half of that and less, the attitude by its 2 degrees and what goes
          ! with the eccentricity
@@ -118,10 +117,7 @@ contains
             if (names(i) /= names(i - 1)) orbit = orbit_t()
          end if
          if (orbit%turns == 0) call find_orbit(journal, rows(3, i), load, [-pi, pi], 1.0e-8_wp, orbit, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          call place_at(orbit, rows(4, i)*degree, hint, place)
          call load%get_load(rows(4, i)*degree, force, status)
          call moving_state(journal, place, force, state)
@@ -150,10 +146,7 @@ contains
       do i = -2, 4
          load%pull = 10.0_wp**i*journal%unit_load
          call find_orbit(journal, -1.0_wp, load, [-pi, 0.5_wp, pi], 1.0e-8_wp, orbit, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          call place_at(orbit, 0.0_wp, hint, place)
          call load%get_load(0.0_wp, force, status)
          call moving_state(journal, place, force, state)
@@ -188,10 +181,7 @@ contains
       do i = 0, 3
          load%pull = 10.0_wp**i
          call find_orbit(journal, 1.0_wp, load, [-pi, pi], 1.0e-8_wp, orbit, failure, touch)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          call place_at(orbit, 1.0_wp, hint, place)
          call load%get_load(1.0_wp, force, status)
          call moving_state(journal, place, force, state, touch)
@@ -216,10 +206,7 @@ contains
       do i = 0, 4
          load = swinging_t(10.0_wp**(-i)*journal%unit_load, 1.0e-2_wp*10.0_wp**(-i)*journal%unit_load)
          call find_orbit(journal, 1.0_wp, load, [-pi, pi], 1.0e-6_wp, orbit, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          ! plain turns take hundreds: what is left of a disturbance after a turn is near 1
          call check(error, orbit%turns <= 15, "turns")
          if (allocated(error)) return
@@ -242,10 +229,7 @@ contains
          call find_orbit(journal, 1.0_wp, load, [-pi, pi], 1.0e-10_wp, exact, failure)
          do k = 3, 7
             if (.not. allocated(failure)) call find_orbit(journal, 1.0_wp, load, [-pi, pi], 10.0_wp**(-k), orbit, failure)
-            if (allocated(failure)) then
-               call test_failed(error, failure%message)
-               return
-            end if
+            if (has_failed(failure, error)) return
             do i = 1, 360
                call place_at(orbit, i*degree, hints(1), place)
                call place_at(exact, i*degree, hints(2), expected)
@@ -263,18 +247,8 @@ contains
 
       case = thesis_case()
       call set_point(case, point_speeds(2), point_viscosities(2))
-      allocate (case%cam_bearings)
-      case%cam_bearings%law = "finite"
-      case%cam_bearings%diameter = 23.0e-3_wp
-      case%cam_bearings%width = 20.0e-3_wp
-      case%cam_bearings%radial_clearance = 47.5e-6_wp
-      case%cam_bearings%bearing_positions = [0.0_wp, 0.06_wp, 0.12_wp]
-      case%cam_bearings%cam_positions = [0.03_wp, 0.08_wp]
-      case%cam_bearings%cam_phases = [0.0_wp, 1.0_wp]
-      case%cam_bearings%cam_lobes = [1, 1]
-      case%cam_bearings%follower_angles = [0.0_wp, 0.3_wp]
+      case%cam_bearings = three_bearings()
       case%cam_bearings%journal_motion = "orbit"
-      case%cam_bearings%by_bearing = .true.
    end function two_cams
 
    subroutine test_case(error)
@@ -290,10 +264,7 @@ contains
       call run_case(case, with, failure)
       case%cam_bearings%journal_motion = "quasi_steady"
       if (.not. allocated(failure)) call run_case(case, without, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       do i = 1, size(without%series)
          if (without%series(i)%scope(:7) == "bearing" .or. index(without%series(i)%name, "torque") == 1 .or. &
             & without%series(i)%name == "energy_residual") cycle
@@ -331,15 +302,11 @@ contains
 
       case = two_cams()
       call start_shaft(shaft, case, 0.0_wp, failure)
-      call check(error, allocated(failure), "a host gets quasi-steady journals in the place of orbits")
-      if (allocated(error)) return
-      call check(error, failure%kind == kind_usage .and. index(failure%message, "quasi_steady") > 0)
+      call expect_error(error, failure, kind_usage, "quasi_steady")
       if (allocated(error)) return
       case%cam_bearings%law = journal_law_names(1)
       call run_case(case, result, failure)
-      call check(error, allocated(failure), "a full film has an orbit")
-      if (allocated(error)) return
-      call check(error, failure%kind == kind_deck .and. index(failure%message, "short_ocvirk") > 0)
+      call expect_error(error, failure, kind_deck, "short_ocvirk")
       if (allocated(error)) return
       case = two_cams()
       case%cam_bearings%journal_motion = "hop"

@@ -2,7 +2,7 @@
 !> numerical film, whose tables are never kept.
 module test_kept_models
    use, intrinsic :: iso_fortran_env, only : int64
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_case, only : case_t
    use camroller_case_loop, only : sweep_cases
@@ -10,13 +10,14 @@ module test_kept_models
    use camroller_case_sink, only : sink_t
    use camroller_deck, only : deck_t, override_t, parse_deck, make_sweep_case
    use camroller_deck_document, only : echo_t, get_echo
-   use camroller_deck_schema, only : key_t, find_group, find_key, type_integer, type_logical, type_name, type_number
+   use camroller_deck_schema, only : key_t, find_group, type_integer, type_logical, type_name, type_number
    use camroller_error, only : error_t
    use camroller_layout, only : layout_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_result, only : result_t
    use camroller_run, only : run_case
    use camroller_text_file, only : read_text_file
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -70,15 +71,13 @@ contains
          text = text(:index(text, "&sweep") - 1)
          call parse_deck(deck, text, "deck", "decks/", none, failure)
       end if
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call get_echo(deck, echo, .true.)
       count = 0
       do i = 1, size(echo%keys)
          point = index(echo%keys(i), ".")
-         position = find_key(deck%schema, find_group(deck%schema, echo%keys(i) (:point - 1)), trim(echo%keys(i) (point + 1:)))
+         position = findloc(deck%schema%keys%group == find_group(deck%schema, echo%keys(i) (:point - 1)) .and. &
+            & deck%schema%keys%name == echo%keys(i) (point + 1:), .true., 1)
          values = ""
          if (position > 0) values = other_values(deck%schema%keys(position), echo%values(i)%text)
          if (values == "" .or. index(echo%keys(i), "output.") == 1 .or. index(echo%keys(i), "numerics.") == 1) cycle

@@ -1,6 +1,6 @@
 !> Limit speeds of a train.
 module test_limit_speeds
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t
@@ -9,7 +9,7 @@ module test_limit_speeds
    use camroller_run, only : run_case
    use reference_cases, only : thesis_case, set_point
    use flexible_cases, only : add_dynamics
-   use closeness, only : check_close
+   use closeness, only : check_close, has_failed
    implicit none
    private
 
@@ -46,8 +46,7 @@ contains
       the_case = thesis_case()
       the_case%masses%finger = 0.0418_wp
       call start_limits(search, the_case, 0.5_wp, 6000.0_wp*minute, 100.0_wp*minute, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, .not. search%is_open, "a rigid train needs no scan")
       if (allocated(error)) return
       call check(error, all(abs(search%rigid(:contact_limit)/minute - [2471, 2357, 2937]) < 1.0_wp), "limits")
@@ -61,8 +60,7 @@ contains
             call set_point(the_case, speed, 0.01_wp)
             call run_case(the_case, result, failure)
             if (.not. allocated(failure)) call get_summary(result, trim(names(limit)), margin, failure)
-            if (allocated(failure)) call test_failed(error, failure%message)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             call check(error, side*margin < 0.0_wp, "margin beside the limit "//trim(names(limit)))
             if (allocated(error)) return
          end do
@@ -84,8 +82,7 @@ contains
       call add_dynamics(the_case, 2, .false.)
       the_case%numerics%tolerance = 1.0e-3_wp
       call start_limits(search, the_case, 0.5_wp, 1500.0_wp*minute, 500.0_wp*minute, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       do while (search%is_open)
          call try_speed(search)
          call check(error, search%done <= search%total, "more speeds than there are")
@@ -104,8 +101,7 @@ contains
          call set_point(the_case, merge(search%below(joint_limit), search%above(joint_limit), i == 1), 0.01_wp)
          call run_case(the_case, result, failure)
          if (.not. allocated(failure)) call get_summary(result, "joint_force_min", forces(i), failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
       end do
       call check(error, forces(1) >= 0.0_wp .and. forces(2) < 0.0_wp, "force in the joint beside the limit")
    end subroutine test_joint
@@ -121,8 +117,7 @@ contains
       call add_dynamics(the_case, 2, .false.)
       the_case%numerics%method = "euler"
       call start_limits(search, the_case, 0.5_wp, 1500.0_wp*minute, 500.0_wp*minute, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call try_speed(search)
       call check(error, .not. search%is_open .and. search%done == 1, "the scan goes on")
       if (allocated(error)) return
@@ -142,8 +137,7 @@ contains
       call add_dynamics(the_case, 2, .false.)
       the_case%numerics%tolerance = 1.0e-3_wp
       call start_limits(search, the_case, 0.5_wp, 4500.0_wp*minute, 200.0_wp*minute, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       ! As if it had been tried up to 4400 rev/min, with contact regained far below and seating half a step below
       search%below = 4400.0_wp*minute
       search%above([contact_limit, seating_limit]) = 3900.0_wp*minute

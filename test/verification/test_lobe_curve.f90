@@ -1,6 +1,6 @@
 !> The curve by which a camshaft takes a follower's torques and force: that of the states, wherever it says that it is known.
 module test_lobe_curve
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, degree, pi, two_pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t
@@ -18,6 +18,7 @@ module test_lobe_curve
    use camroller_state, only : state_t
    use camroller_torque_list, only : of_residual, torque_count
    use deck_cases, only : get_deck_case
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -59,8 +60,7 @@ contains
 
       call get_deck_case("decks/thesis.nml", the_case, failure)
       if (.not. allocated(failure)) call build_models(the_case, models, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       solved%case => the_case
       solved%models => models
       do cams = 1, 2
@@ -71,8 +71,7 @@ contains
             bearings%follower_angles = spread(0.0_wp, 1, cams)
          end associate
          call new_shaft(solved%shaft, the_case, models(1)%oil%viscosity, models(1)%speed, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call check(error, all([(valves_rest(solved, places(i)), i=1, size(places))] .eqv. expected(:, cams)), "valves at rest")
          if (allocated(error)) return
       end do
@@ -183,10 +182,7 @@ contains
       if (.not. allocated(failure)) call get_curve(the_case, with, failure)
       deallocate (the_case%cam_bearings)
       if (.not. allocated(failure)) call get_curve(the_case, without, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       do i = 1, angles
          call curve_at(with, two_pi*i/angles, values, is_known)
          call curve_at(without, two_pi*i/angles, others, are_known)
@@ -259,10 +255,7 @@ contains
          exact(:, i) = cam_values(models(1), state)
          call curve_at(lobe_curve, two_pi*i/angles, curve(:, i), is_known(:, i))
       end do
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       known = real(count(all(is_known, 1)), wp)/angles
       worst = 0.0_wp
       do i = 1, curve_values

@@ -22,6 +22,7 @@ module test_means
    use random_decks, only : random_t, start_random, random_deck
    use reference_cases, only : thesis_case, source_case, set_point, point_viscosities
    use run_settings, only : has_checks
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -137,10 +138,7 @@ contains
             do part = 0, parts - 1
                do node = 1, size(nodes)
                   call state_at(cycle, model, times(interval) + (part + nodes(node))*length, hint, state, failure)
-                  if (allocated(failure)) then
-                     call test_failed(error, failure%message)
-                     return
-                  end if
+                  if (has_failed(failure, error)) return
                   torques = torques + weights(node)*length/span*state%torques
                   sizes = sizes + weights(node)*length/span*abs(state%torques)
                   if (present(lost_share) .and. .not. state%contact%is_touching) lost_share = lost_share &
@@ -172,8 +170,7 @@ contains
          if (.not. allocated(error)) call brute_force(models(1), cycle, merge(16, 64, has_checks()), torques, sizes, error)
          if (allocated(error)) return
          call integrate_torques(models(1), cycle, of_piece, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          do i = 1, size(losses)
             associate (loss => losses(i))
                write (words, "(a, 2i2, 3es11.2)") "case, torque, errors, tolerance", number, loss, &
@@ -323,8 +320,7 @@ contains
       call get_deck_case("test/data/free_loss/deck.nml", the_case, failure)
       if (.not. allocated(failure)) call take_statistics(the_case, models, cycle, statistics, error)
       if (.not. allocated(failure) .and. .not. allocated(error)) call integrate_torques(models(1), cycle, of_piece, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call brute_force(models(1), cycle, parts, torques, sizes, error, share)
       if (allocated(error)) return
       write (words, "(5es13.5)") statistics%torques(of_geometric), of_piece(of_geometric), torques(of_geometric), &
@@ -353,8 +349,7 @@ contains
       do i = 1, 25
          if (.not. allocated(failure)) call advance(simulation, 0.5_wp*pi + i*step, the_case%operating_point%speed, &
             & the_case%operating_point%oil_temperature, outcome, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          after = stored_energy(models(1)%train, outcome%state%position, models(1)%speed) &
             & + 0.5_wp*models(1)%roller_inertia*outcome%state%contact%roller_spin**2
          largest = max(largest, after)
@@ -391,8 +386,7 @@ contains
             do i = 1, size(names)
                if (.not. allocated(failure)) call get_summary(result, trim(names(i)), found, failure)
                if (.not. allocated(failure)) call get_summary(right, trim(names(i)), expected, failure)
-               if (allocated(failure)) call test_failed(error, failure%message)
-               if (allocated(error)) return
+               if (has_failed(failure, error)) return
                write (words, "(a, 2i3, 3es10.2)") trim(names(i)), number, power, found, expected, estimate
                call check(error, abs(found - expected) <= the_case%numerics%accuracy*merge(friction, expected, i == 4), words)
                if (allocated(error)) return
@@ -414,15 +408,13 @@ contains
       the_case%numerics = numerics_t()
       the_case%numerics%accuracy = 1.0e-15_wp
       call run_case(the_case, result, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, any(result%remarks%kind == missed_means) .and. &
          & index(remark_lines(result%remarks), "error, of mean_") > 0, remark_lines(result%remarks))
       if (allocated(error)) return
       the_case%numerics%accuracy = 1.0e-4_wp
       call run_case(the_case, result, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, all(result%remarks%kind /= missed_means), remark_lines(result%remarks))
    end subroutine test_remark
 
@@ -452,8 +444,7 @@ contains
          if (.not. allocated(failure)) call run_case(the_case, result, failure)
          if (.not. allocated(failure)) call get_summary(result, "min_film_thickness_min", film, failure)
          if (.not. allocated(failure)) call get_summary(result, "entrainment_reversals", standstills, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          if (power == 3) first = film
          write (words, "(3es12.4)") film, first, standstills
          ! The place of the standstill is known within the accuracy, and the load, which the film of dry surfaces follows, changes
@@ -488,8 +479,7 @@ contains
       do i = 1, size(names)
          if (.not. allocated(failure)) call get_summary(fine, trim(names(i)), values(1), failure)
          if (.not. allocated(failure)) call get_summary(coarse, trim(names(i)), values(2), failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          write (words, "(a, 2es17.9)") trim(names(i)), values
          ! A millionth of the range is stated, and no range here is more than a few times the largest value
          call check(error, abs(values(2) - values(1)) <= 3.0e-6_wp*maxval(abs(values)), words)

@@ -25,6 +25,7 @@ module test_needed
    use run_settings, only : number_from
    use wide_decks, only : wide_deck_t, draw_wide_deck
    use wide_draft, only : style_t
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -166,10 +167,7 @@ contains
       case%effects%negligible = 0.0_wp
       call build_models(case, models, failure)
       if (.not. allocated(failure)) call choose_effects(case, models, chosen, choice, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call check(error, all(choice%decisions%is_used) .and. allocated(chosen%asperity) .and. allocated(chosen%needle_bearing) &
          .and. allocated(chosen%valve_guide), "an effect is missing")
       if (allocated(error)) return
@@ -194,10 +192,7 @@ contains
       call run_case(case, listed, failure)
       case%effects%select = "needed"
       if (.not. allocated(failure)) call run_case(case, needed, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call check(error, find_quantity(needed%series, "asperity_load"), 0, "an effect left out has a series")
       if (allocated(error)) return
       call check(error, find_quantity(listed%series, "asperity_load") > 0 .and. &

@@ -19,6 +19,7 @@ module test_needed_flexible
    use flexible_cases, only : add_dynamics, add_joints
    use reference_cases, only : thesis_case, set_point
    use run_settings, only : has_checks, number_from
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -155,10 +156,7 @@ contains
       case%effects%select = "needed"
       call run_case(rigid, expected, failure)
       if (.not. allocated(failure)) call run_case(case, needed, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call check(error, find_quantity(needed%series, "lift_error"), 0, "a rigid train has a flexible one's series")
       if (allocated(error)) return
       call check(error, all(abs(needed%series_values - expected%series_values) <= 0.0_wp), "it is not the rigid train")

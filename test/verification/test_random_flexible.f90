@@ -25,6 +25,7 @@ module test_random_flexible
    use run_settings, only : has_checks, number_from, value_from
    use wide_decks, only : wide_deck_t, draw_wide_deck, save_wide_deck
    use wide_draft, only : style_t
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -120,10 +121,7 @@ contains
       integer :: i
 
       call read_text_file(path, deck%text, read_error)
-      if (allocated(read_error)) then
-         call test_failed(error, read_error%message)
-         return
-      end if
+      if (has_failed(read_error, error)) return
       call check_deck(deck, path(:index(path, "/", back=.true.)), wanted, tally, trouble)
       endings = endings_table(tally)
       do i = 1, size(others)

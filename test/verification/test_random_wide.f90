@@ -17,7 +17,7 @@ module test_random_wide
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
    use camroller_deck_keys, only : new_schema
-   use camroller_deck_schema, only : schema_t, key_t, add_group, add_number, group_effect, positive, type_integer, type_logical, &
+   use camroller_deck_schema, only : schema_t, key_t, add_group, add_key, group_effect, positive, type_integer, type_logical, &
       & type_name, type_number
    use case_twins, only : compare_twins, leave_constants_out, rescale_case
    use case_endings, only : tally_t, count_ending, count_error, count_remarks, endings_table, ending_count
@@ -94,7 +94,7 @@ contains
          end associate
       end do
       call add_group(schema, "group_of_tomorrow", group_effect, "")
-      call add_number(schema, "number_of_tomorrow", positive, "", is_optional=.true.)
+      call add_key(schema, "number_of_tomorrow", type_number, "", positive, is_optional=.true.)
       schema%groups = schema%groups(:schema%group_count)
       schema%keys = schema%keys(:schema%key_count)
       call draw_missing(schema, 30, missing)

@@ -17,7 +17,7 @@ module test_result
    use camroller_result, only : result_t, check_numbers, find_quantity, get_summary, quantity_t
    use camroller_run, only : run_case
    use camroller_state, only : evaluate_loading, state_t
-   use closeness, only : check_close, expect_error, expect_success
+   use closeness, only : check_close, expect_error, has_failed
    use deck_cases, only : get_deck_case
    use lobe_cases, only : fast, low_lift, run, thesis_lift, two_lobes
    use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
@@ -86,8 +86,7 @@ contains
 
       call get_summary(one, name, values(1), failure)
       if (.not. allocated(failure)) call get_summary(other, other_name, values(2), failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, transfer(values(1), 0_int64) == transfer(values(2), 0_int64), name//" and "//other_name//" differ")
    end subroutine compare_scalar
 
@@ -164,8 +163,7 @@ contains
       integer :: room, i
 
       call get_deck_case("decks/four_cylinder.nml", case, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       allocate (case%bearing_heat, case%bearing_asperity)
       case%bearing_asperity%roughness = 1.0e-6_wp
       case%cam_bearings%by_bearing = .true.
@@ -214,16 +212,14 @@ contains
          call make_model(case, model, error)
          if (allocated(error)) return
          call integrate_cycle(cycle, model, case%numerics, failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          allocate (values(follower_count(case)), lowest(follower_count(case)), highest(follower_count(case)))
          lowest = huge(1.0_wp)
          highest = -lowest
          hint = 1
          do i = 1, steps
             call state_at(cycle, model, two_pi*i/steps - pi, hint, state, failure)
-            call expect_success(error, failure)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             call follower_values(case, model, state, values)
             lowest = min(lowest, values)
             highest = max(highest, values)
@@ -232,8 +228,7 @@ contains
             associate (name => result%series(i)%name)
                call get_summary(result, "min_"//name, ends(1), failure)
                if (.not. allocated(failure)) call get_summary(result, "max_"//name, ends(2), failure)
-               call expect_success(error, failure)
-               if (allocated(error)) return
+               if (has_failed(failure, error)) return
                range = highest(i) - lowest(i)
                call check(error, ends(1) <= lowest(i) + allowed*range, "min_"//name//" is too large")
                if (allocated(error)) return
@@ -267,8 +262,7 @@ contains
       do i = 1, size(names)
          call get_summary(fine, trim(names(i)), values(1), failure)
          if (.not. allocated(failure)) call get_summary(coarse, trim(names(i)), values(2), failure)
-         call expect_success(error, failure)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          ! three vertices of parabolas from points 7 degrees apart: 1e-4 of the value
          call check_close(error, values(2), values(1), 1.0e-4_wp, trim(names(i)))
          if (allocated(error)) return
@@ -295,8 +289,7 @@ contains
       call make_model(case, model, error)
       if (allocated(error)) return
       call integrate_cycle(cycle, model, case%numerics, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       intervals = contact_losses(model, cycle%stops)
       lost = 0
       do i = 1, steps
@@ -319,8 +312,7 @@ contains
       call run(thesis_case(), result, error)
       if (allocated(error)) return
       call check_numbers(result, failure)
-      call expect_success(error, failure)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       changed = result
       place = find_quantity(result%series, "contact_load")
       changed%series_values(26, place) = ieee_value(1.0_wp, ieee_quiet_nan)

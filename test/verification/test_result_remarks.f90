@@ -1,6 +1,6 @@
 !> Remarks of results: loss of contact, the lobe concerned, and the policy that refuses such cases.
 module test_result_remarks
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, degree, two_pi
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_error, only : error_t, kind_domain, kind_internal
@@ -13,7 +13,7 @@ module test_result_remarks
    use camroller_result, only : find_quantity, get_summary, result_t
    use camroller_run, only : run_case
    use camroller_run_remarks, only : judge_assumptions
-   use closeness, only : expect_error
+   use closeness, only : expect_error, has_failed
    use lobe_cases, only : fast, low_lift, run, thesis_lift, two_lobes
    use reference_cases, only : add_pin_film, thesis_case, set_point, point_speeds, point_viscosities
    implicit none
@@ -264,8 +264,7 @@ contains
          case%operating_point%oil_temperature = temperatures(i)
          call get_oil(sheet, temperatures(i), oil, failure)
          if (.not. allocated(failure)) call get_oil(sheet, temperatures(i) + 5.0_wp, warmer, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          falls = oil%pressure_viscosity < warmer%pressure_viscosity
          ! The formula has its largest value between the second and the third temperature
          call check(error, falls .eqv. i < 3)
@@ -421,8 +420,7 @@ contains
             call expect_error(error, failure, kind_domain, "hardness/E' up to 0.0991, published for 0.005 to 0.03")
             return
          end if
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call check(error, any(result%remarks%kind == outside_range) .and. index(remark_lines(result%remarks), "; sigma/R up to ") &
             & > 0, remark_lines(result%remarks))
          if (allocated(error)) return

@@ -1,6 +1,6 @@
 !> Hours of running: growth of films and wear of surfaces, and what they make of the cycle.
 module test_running_in
-   use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_cam_surface, only : place_angle, value_at_angle
    use camroller_case, only : case_t
    use camroller_cycle, only : cycle_t, state_at
@@ -16,6 +16,7 @@ module test_running_in
    use case_twins, only : compare_twins, leave_constants_out, rescale_case
    use reference_cases, only : add_heat, make_cycle, make_model, set_point, thesis_case, point_speeds, point_viscosities
    use unit_systems, only : unit_systems_tried
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -78,8 +79,7 @@ contains
       if (allocated(error)) return
       bare = model
       call run_in(case, model, aged, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call make_cycle(case, bare, cycle, error)
       if (allocated(error)) return
       hint = 1
@@ -128,8 +128,7 @@ contains
       call make_model(case, model, error)
       if (allocated(error)) return
       call run_in(case, model, aged, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call make_cycle(case, model, cycle, error)
       if (allocated(error)) return
       volume = 0.0_wp
@@ -159,15 +158,13 @@ contains
       call make_model(case, fine, error)
       if (allocated(error)) return
       call run_in(case, fine, finest, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       do k = 1, 2
          case%running_in%accuracy = merge(3.0e-2_wp, 3.0e-3_wp, k == 1)
          call make_model(case, model, error)
          if (allocated(error)) return
          call run_in(case, model, aged, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          found = largest_difference(case, model, fine)
          call check(error, found <= aged%error + finest%error .and. found > 0.0_wp, "the error is larger than stated")
          if (allocated(error)) return
@@ -267,8 +264,7 @@ contains
       call make_model(case, model, error)
       if (allocated(error)) return
       if (.not. allocated(failure)) call run_in(case, model, aged, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       found = largest_difference(case, model, fine)
       write (words, "(a, es10.2, a, es10.2, a, i0)") "error", found, ", stated", aged%error, ", cycles ", aged%solved%count
       call check(error, found <= aged%error + finest%error .and. found > 1.0e-3_wp*aged%error, trim(words))
@@ -301,8 +297,7 @@ contains
          call make_model(case, model, error)
          if (allocated(error)) return
          if (.not. allocated(failure)) call run_in(case, model, aged, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          found = largest_difference(case, model, fine)
          write (words, "(i2, 2es11.3)") power, found, aged%error
          call check(error, found <= aged%error + finest%error .and. found > 1.0e-3_wp*aged%error, words)
@@ -349,8 +344,7 @@ contains
             call run_in(case, model, aged, failure)
             case%running_in%places = 8*numbers(k)
             if (.not. allocated(failure)) call run_in(case, fine, finer, failure)
-            if (allocated(failure)) call test_failed(error, failure%message)
-            if (allocated(error)) return
+            if (has_failed(failure, error)) return
             found = 0.0_wp
             do i = 1, 3600
                call value_at_angle(model%surface%film_curve, 0.1_wp*i*degree, value, slope)
@@ -384,8 +378,7 @@ contains
       deallocate (plain%wear, plain%tribofilm, plain%running_in)
       call run_case(case, with, failure)
       if (.not. allocated(failure)) call run_case(plain, without, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       do i = 1, size(without%series)
          call check(error, all(abs(with%series_values(:, find_quantity(with%series, without%series(i)%name)) &
             & - without%series_values(:, i)) <= 0.0_wp), "another bit in "//without%series(i)%name)
@@ -414,8 +407,7 @@ contains
       if (.not. allocated(failure)) call get_summary(result, "power_friction", power, failure)
       if (.not. allocated(failure)) call get_summary(result, "roller_film_thickness", roller, failure)
       if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_running_in", error_stated, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       call check(error, maxval(film) > 20.0e-9_wp .and. maxval(film) < 120.0e-9_wp, "film")
       if (allocated(error)) return
       associate (bare => hypot(case%surface%cam_roughness, case%surface%roller_roughness))
@@ -458,10 +450,7 @@ contains
          case%wear = wear_t(rates(i), rates(i))
          call run_case(case, result, failure)
          if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimates(i), failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
       end do
       ! Wear of 1e-40 m is 1e-20 of what counts as none; the usual wear has the largest error here
       call check(error, abs(estimates(2) - estimates(3)) <= 1.0e-12_wp*estimates(3), "wear that is none counts")
@@ -486,8 +475,7 @@ contains
          other = case
          call rescale_case(other, units)
          if (.not. allocated(failure)) call run_case(other, twin, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          trouble = compare_twins(one, twin, units, 1.0e-9_wp)
          call check(error, trouble == "", trouble)
       end associate

@@ -2,11 +2,11 @@
 module test_saved_simulation
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_value
    use, intrinsic :: iso_fortran_env, only : int8, int64
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller, only : wp, pi, case_t, error_t, inputs_t, kind_usage, outcome_t, shaft_outcome_t, shaft_simulation_t, &
       & simulation_t, advance, advance_shaft, restore_simulation, save_shaft, save_simulation, start_shaft, start_simulation
    use deck_cases, only : get_deck_case
-   use closeness, only : expect_error
+   use closeness, only : expect_error, has_failed
    use reference_cases, only : add_gas_force
    implicit none
    private
@@ -72,20 +72,14 @@ contains
       case%operating_point%speed = steady%speed
       case%operating_point%oil_temperature = steady%oil_temperature
       if (.not. allocated(failure)) call start_simulation(follower, case, 2.4_wp, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       other = follower
       call advance(follower, 2.8_wp, failing, failing, outcome, failure)
       call check(error, allocated(failure), "no error")
       if (allocated(error)) return
       call advance(other, 2.8_wp, steady, steady, expected, failure)
       if (.not. allocated(failure)) call advance(follower, 2.8_wp, steady, steady, outcome, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call check(error, all(bits_of(outcome) == bits_of(expected)), "bits differ")
    end subroutine test_failed_films
 
@@ -111,10 +105,7 @@ contains
       case%cam_bearings%follower_angles = [0.0_wp, 0.0_wp]
       call add_gas_force(case)
       if (.not. allocated(failure)) call start_shaft(shaft, case, 2.4_wp, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       other = shaft
       pressures(1, :) = 0.0_wp
       pressures(2, :) = ieee_value(1.0_wp, ieee_positive_inf)
@@ -124,10 +115,7 @@ contains
       deallocate (failure)
       call advance_shaft(other, 2.8_wp, steady, steady, expected, failure)
       if (.not. allocated(failure)) call advance_shaft(shaft, 2.8_wp, steady, steady, outcome, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       do cam = 1, 2
          call check(error, all(bits_of(outcome%followers(cam)) == bits_of(expected%followers(cam))), "bits differ")
          if (allocated(error)) return
@@ -162,10 +150,7 @@ contains
       do i = 1, steps
          if (.not. allocated(failure)) call advance(saved, 2.8_wp + 0.3_wp*i, ends(1), ends(2), of_saved, failure)
          if (.not. allocated(failure)) call advance(restored, 2.8_wp + 0.3_wp*i, ends(1), ends(2), of_restored, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          call check(error, all(bits_of(of_saved) == bits_of(of_restored)), "bits differ: "//path)
          if (allocated(error)) return
          ends(1) = ends(2)
@@ -193,10 +178,7 @@ contains
       integer :: i
 
       call get_deck_case("decks/three_cam_head.nml", case, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       case%lubricant%temperature_law = "vogel"
       case%lubricant%temperature_points = [313.15_wp, 343.15_wp, 373.15_wp]
       case%lubricant%viscosity_points = [0.08_wp, 0.025_wp, 0.011_wp]
@@ -204,10 +186,7 @@ contains
       call start_simulation(simulation, case, pi, failure)
       if (.not. allocated(failure)) call save_simulation(simulation, block, failure)
       if (.not. allocated(failure)) call restore_simulation(simulation, case, block, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       do i = 1, 2
          other = case
          if (i == 1) then
@@ -241,10 +220,7 @@ contains
          if (.not. allocated(failure)) call start_simulation(simulation, case, pi, failure)
          if (.not. allocated(failure)) call save_simulation(simulation, block, failure)
          if (.not. allocated(failure)) call restore_simulation(simulation, case, block, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          other = case
          if (i == 1) other%surface%cam_roughness = 2.0_wp*case%surface%cam_roughness
          if (i == 2) other%needle_bearing%friction_coefficient = 2.0_wp*case%needle_bearing%friction_coefficient
@@ -270,10 +246,7 @@ contains
       if (.not. allocated(failure)) call save_simulation(simulation, block, failure)
       if (.not. allocated(failure)) call start_shaft(shaft, case, pi, failure)
       if (.not. allocated(failure)) call save_shaft(shaft, of_shaft, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       ! one bit of any byte behind what says that it is a block and of which format
       do place = 17, size(block)
          damaged = block

@@ -10,7 +10,7 @@ module test_shaft_drag
    use camroller_shaft_drag, only : check_shaft_drag, find_shaft_drag, shaft_drag_t
    use camroller_shaft_simulation, only : advance_shaft, shaft_outcome_t, shaft_simulation_t, start_shaft
    use camroller_torque_list, only : of_shaft_drag
-   use closeness, only : expect_error
+   use closeness, only : expect_error, has_failed
    use deck_cases, only : get_deck_case
    use result_checks, only : scalar_of
    implicit none
@@ -110,8 +110,7 @@ contains
 
       drags = table()
       call check_shaft_drag(drags(1), failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
+      if (has_failed(failure, error)) return
       deallocate (drags(1)%torque_points)
       drags(2)%speed_points(2) = 0.0_wp
       drags(3)%temperature_points(2) = 280.0_wp
@@ -143,10 +142,7 @@ contains
       if (.not. allocated(failure)) call run_case(case, with, failure)
       if (.not. allocated(failure)) call find_shaft_drag(table(), case%operating_point%speed, &
          & case%operating_point%oil_temperature, torque, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       compared = 0
       do i = 1, size(without%series)
          associate (name => without%series(i)%name)
@@ -208,10 +204,7 @@ contains
       if (.not. allocated(failure)) call find_shaft_drag(case%shaft_drag, 60.0_wp, 300.0_wp, torques(1), failure)
       if (.not. allocated(failure)) call find_shaft_drag(case%shaft_drag, 85.0_wp, 310.0_wp, torques(2), failure)
       if (.not. allocated(failure)) call find_shaft_drag(case%shaft_drag, 110.0_wp, 320.0_wp, torques(3), failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       ! A product of two straight lines over the angle, of which Simpson's rule is exact
       call check(error, abs(outcome%mean_torques(of_shaft_drag) - (torques(1) + 4.0_wp*torques(2) + torques(3))/6.0_wp) < round_off)
       if (allocated(error)) return

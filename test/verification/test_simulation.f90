@@ -1,10 +1,11 @@
 !> A follower driven from outside, angle by angle, against the periodic cycle of the same case.
 module test_simulation
-   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller, only : wp, pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
       & start_simulation, advance, get_series, get_summary, halt, inputs_t
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, add_gas_force
+   use closeness, only : has_failed
    implicit none
    private
 
@@ -68,10 +69,7 @@ contains
 
       the_case = tight_case()
       call start_simulation(simulation, the_case, 0.0_wp, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call compare_with_cycle(simulation, the_case, error)
    end subroutine test_periodic
 
@@ -85,10 +83,7 @@ contains
       the_case%numerics%method = "hermite"
       call add_gas_force(the_case)
       call start_simulation(simulation, the_case, 0.0_wp, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       call compare_with_cycle(simulation, the_case, error, 360)
    end subroutine test_short_steps
 
@@ -115,10 +110,7 @@ contains
          do turn = 1, 2
             if (.not. allocated(failure)) call drive(simulation, the_case, 2.0_wp*pi*(turn - 1), 360, torques, outcome, failure)
          end do
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          call check(error, torques(2), mean, thr=accuracy*mean, message=trim(decks(i)))
          if (allocated(error)) return
       end do
@@ -149,10 +141,7 @@ contains
       do turn = 1, 2
          if (.not. allocated(failure)) call drive(simulation, the_case, 2.0_wp*pi*(turn - 1), number, torques, outcome, failure)
       end do
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       ! both integrations hold a tolerance of 1e-8 per step; some hundred steps, and decay between them
       call check(error, abs(outcome%state%contact%sliding_speed - sliding(1)) < 1.0e-6_wp*maxval(abs(sliding)), &
          "sliding speed at the end of a turn")
@@ -180,10 +169,7 @@ contains
          the_case%operating_point%speed = speeds(1)
          the_case%operating_point%oil_temperature = temperatures(1)
          call start_simulation(simulation, the_case, 0.0_wp, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          ! the temperature alone, then both
          the_case%operating_point%oil_temperature = temperatures(2)
          if (i == 2) the_case%operating_point%speed = speeds(2)
@@ -207,10 +193,7 @@ contains
       do i = 1, 3
          call start_simulation(simulation, the_case, 1.0_wp, failure)
          if (.not. allocated(failure)) call drive(simulation, the_case, 1.0_wp, steps(i), torques(:, i), outcome, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
       end do
       call check(error, all(maxval(torques, dim=2) - minval(torques, dim=2) < 1.0e-6_wp*torques(:, 1)))
    end subroutine test_steps
@@ -228,10 +211,7 @@ contains
       the_case = tight_case()
       call start_simulation(simulation, the_case, 0.0_wp, failure)
       if (.not. allocated(failure)) call advance(simulation, 0.1_wp, 30.0_wp, 330.0_wp, outcome, failure)
-      if (allocated(failure)) then
-         call test_failed(error, failure%message)
-         return
-      end if
+      if (has_failed(failure, error)) return
       spin = outcome%state%contact%roller_spin
       ! over a vanishing step the roller keeps its spin, whatever the speed becomes
       call advance(simulation, 0.1_wp + 1.0e-9_wp, 60.0_wp, 330.0_wp, outcome, failure)
@@ -239,10 +219,7 @@ contains
       if (allocated(error)) return
       do i = 1, 20
          call advance(simulation, 0.1_wp + 0.4_wp*i, 30.0_wp + 2.0_wp*i, 330.0_wp + 2.0_wp*i, outcome, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          call check(error, outcome%mean_torque_friction > 0.0_wp, "friction must cost torque")
          if (allocated(error)) return
       end do
@@ -299,10 +276,7 @@ contains
       do i = 1, 144
          if (.not. allocated(failure)) call advance(simulation, 5.0_wp*i*degree, the_case%operating_point%speed, &
             & the_case%operating_point%oil_temperature, outcome, failure)
-         if (allocated(failure)) then
-            call test_failed(error, failure%message)
-            return
-         end if
+         if (has_failed(failure, error)) return
          if (i <= 72) cycle
          if (.not. abs(outcome%state%contact%sliding_speed) > 0.0_wp) at_rest = at_rest + 1
          ! at rest the angle alone decides, and while sliding the friction is all there is; 100 default accuracies
@@ -332,10 +306,7 @@ contains
             call halt(simulation)
             if (.not. allocated(failure)) call advance(simulation, (i*15.0_wp + 1.0_wp)*degree, inputs_t(speed=0.3_wp, &
                & oil_temperature=333.0_wp), inputs_t(speed=3.0_wp, oil_temperature=333.05_wp), outcomes(k), failure)
-            if (allocated(failure)) then
-               call test_failed(error, failure%message)
-               return
-            end if
+            if (has_failed(failure, error)) return
          end do
          call check(error, abs(outcomes(1)%mean_torque_drive - outcomes(2)%mean_torque_drive) <= sum(outcomes%estimated_error), &
             & "mean torque of the drive")

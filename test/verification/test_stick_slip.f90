@@ -13,7 +13,7 @@ module test_stick_slip
    use camroller_spin, only : rolling_speed_slope
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_cubic, append_curve, append_until, interpolate_state
    use camroller_torque_list, only : torque_count, is_loss, of_residual
-   use closeness, only : check_scaled
+   use closeness, only : check_scaled, expect_error, has_failed
    use reference_cases, only : thesis_case, set_point, make_model, make_cycle, point_speeds, point_viscosities
    implicit none
    private
@@ -115,8 +115,7 @@ contains
       sample%residual = 0.0_wp
       do i = 1, angle_count
          call state_at(cycle, model, (i - 1)*two_pi/angle_count, hint, state, failure)
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          sample%sliding_speed(i) = state%contact%sliding_speed
          sample%mobilised(i) = state%contact%boundary_mobilised
          sample%capacity(i) = state%contact%boundary_capacity
@@ -393,8 +392,7 @@ contains
       if (.not. allocated(error)) call start_simulation(simulation, case, 90.0_wp*degree, failure)
       hint = 1
       steps: do i = 1, 108
-         if (allocated(failure)) call test_failed(error, failure%message)
-         if (allocated(error)) return
+         if (has_failed(failure, error)) return
          call advance(simulation, 90.0_wp*degree + i*step, model%speed, case%operating_point%oil_temperature, outcome, failure)
          if (allocated(failure)) cycle steps
          if (i <= 36) cycle steps
@@ -447,11 +445,7 @@ contains
          if (allocated(error)) return
          case%numerics%method = methods(i)
          call integrate_cycle(cycle, model, case%numerics, failure)
-         call check(error, allocated(failure), "not refused: "//trim(methods(i)))
-         if (allocated(error)) return
-         call check(error, failure%kind, kind_deck)
-         if (allocated(error)) return
-         call check(error, index(failure%message, "stick_slip") > 0, failure%message)
+         call expect_error(error, failure, kind_deck, "stick_slip")
       end do
    end subroutine test_refused
 

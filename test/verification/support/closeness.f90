@@ -56,14 +56,14 @@ contains
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine expect_success
 
-   !> Has a call failed? Then the test has, with its message.
+   !> Has a call failed, or the test before it? Then the test has, with the message of the call.
    logical function has_failed(failure, error)
       !> What the library says
       type(error_t), allocatable, intent(in) :: failure
       !> Failure of the test
-      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable, intent(inout) :: error
 
-      call expect_success(error, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
       has_failed = allocated(error)
    end function has_failed
 
