@@ -41,7 +41,7 @@ ANGLE = f"cam angle, full lift at 180{DEGREE} [{DEGREE}]"
 
 
 def read(path: str, case: int) -> dict[str, dict]:
-    """Lobe shapes by name, each with its quantities of one case; where there is no contact, numbers are NaN."""
+    """Lobe shapes by name, each with its quantities of one case; where there is no contact, or it is not solved, numbers are NaN."""
     lobes = {}
     with opened(path, "a file of solved contacts") as file:
         if "ehl" not in file:
@@ -53,10 +53,11 @@ def read(path: str, case: int) -> dict[str, dict]:
                 raise ResultError(f"{path}: there is no case {case}; it has 0 to {group['load'].shape[0] - 1}")
             data = {key: item[case] if item.ndim > 1 else item[:] for key, item in group.items() if isinstance(item, h5py.Dataset)}
             lost = ~(data["film_min"] > 0)
+            unsolved = numpy.isnan(data["film_min"]) & numpy.isfinite(data["load"])
             for key, values in data.items():
                 if values.shape[:1] == lost.shape and key not in ("angle", "load", "sliding_speed"):
                     values[lost] = numpy.nan
-            lobes[name] = data
+            lobes[name] = data | {"unsolved": unsolved}
     return lobes
 
 
@@ -91,7 +92,8 @@ def profiles(pressure, film, data: dict, angles: list[float]) -> None:
     top = 0.0
     for number, angle in enumerate(angles):
         i = nearest(data["angle"], angle)
-        label = f"{data['angle'][i]:.0f}{DEGREE}" + ("" if data["film_min"][i] > 0 else ", no contact")
+        lack = ", not solved" if data["unsolved"][i] else ", no contact"
+        label = f"{data['angle'][i]:.0f}{DEGREE}" + ("" if data["film_min"][i] > 0 else lack)
         place = 1e6 * data["x"] * data["half_width"][i]
         pressure.plot(place, data["pressure"][i] / 1e6, color=f"C{number}", label=label)
         film.plot(place, 1e6 * data["film"][i], color=f"C{number}", label=label)

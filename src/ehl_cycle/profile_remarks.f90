@@ -2,6 +2,7 @@
 !>
 !> In: profiles, their case. Out: remarks.
 module camroller_profile_remarks
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_case, only : case_t
    use camroller_ehl_record, only : ehl_record_t
    use camroller_error, only : error_t
@@ -42,6 +43,7 @@ contains
       if (allocated(failure)) return
       associate (angles => size(record%angle))
          do i = 1, angles
+            if (ieee_is_nan(record%film_rise(1, i))) cycle
             call note_hot_film(hot, part, case%lubricant, oil, maxval(record%film_rise(:, i)), 0.0_wp, record%angle(i), &
                & 1.0_wp/angles)
          end do

@@ -3,8 +3,10 @@
 !> In: an open result file, one record after the other. Out: `/ehl` with pressure, film and, of profiles with heat, rise of the
 !> film's temperature over case, angle and node, and what belongs to them over case and angle; `/ehl/second_lift` with the same for
 !> the second lobe shape. Angles are equally spaced; between the steps of a cycle values are taken as linear. Where a case has no
-!> record, numbers are NaN; where only few are expected to have one, the others take no space.
+!> record, numbers are NaN, and so they are at angles whose contact is not solved; where only few are expected to have one, the
+!> others take no space.
 module camroller_ehl_file
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t
    use camroller_hdf5_attribute, only : attach_scale, describe, make_scale
@@ -236,7 +238,7 @@ contains
       if (allocated(file%lobes)) deallocate (file%lobes)
    end subroutine close_ehl
 
-   !> Values at other angles.
+   !> Values at other angles; next to an angle without a number those of the nearer one.
    pure function resample(wanted, angles, values) result(rows)
       !> The other angles, from the first one on, increasing [rad]
       real(wp), intent(in) :: wanted(:)
@@ -258,6 +260,7 @@ contains
          end do
          part = (wanted(i) - angles(k))/(angles(k + 1) - angles(k))
          rows(:, i) = values(:, k) + part*(values(:, k + 1) - values(:, k))
+         if (any(ieee_is_nan(rows(:, i)))) rows(:, i) = values(:, k + nint(part))
       end do
    end function resample
 

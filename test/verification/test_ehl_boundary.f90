@@ -90,8 +90,9 @@ contains
          type(ehl_record_t), intent(out) :: profiles
 
          type(error_t), allocatable :: failure
+         character(len=:), allocatable :: gaps
 
-         call make_profiles(profiles, case, result, failure)
+         call make_profiles(profiles, case, result, gaps, failure)
          call expect_success(error, failure)
       end subroutine solve_profiles
 

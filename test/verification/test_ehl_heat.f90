@@ -413,6 +413,7 @@ contains
       type(result_t) :: result
       type(ehl_record_t) :: cold, warm
       type(error_t), allocatable :: failure
+      character(len=:), allocatable :: gaps
 
       case = thesis_case()
       call set_point(case, point_speeds(3), point_viscosities(1))
@@ -420,10 +421,10 @@ contains
       if (allocated(error)) return
       result%angle = result%angle(::20)
       result%series_values = result%series_values(::20, :)
-      call make_profiles(cold, case, result, failure)
+      call make_profiles(cold, case, result, gaps, failure)
       if (.not. allocated(failure)) then
          call add_heat(case)
-         call make_profiles(warm, case, result, failure)
+         call make_profiles(warm, case, result, gaps, failure)
       end if
       if (has_failed(failure, error)) return
       call check(error, .not. allocated(cold%film_rise), "a temperature without heat")
@@ -446,6 +447,7 @@ contains
       type(result_t) :: result, one
       type(ehl_record_t) :: warm
       type(error_t), allocatable :: failure
+      character(len=:), allocatable :: gaps
       integer :: i, k
 
       case = thesis_case()
@@ -458,7 +460,7 @@ contains
          one = result
          one%angle = result%angle(k:k)
          one%series_values = result%series_values(k:k, :)
-         call make_profiles(warm, case, one, failure)
+         call make_profiles(warm, case, one, gaps, failure)
          if (has_failed(failure, error)) return
          call check(error, maxval(warm%film_rise) > 10.0_wp .and. maxval(warm%film_rise) < 40.0_wp, "rise")
          if (allocated(error)) return

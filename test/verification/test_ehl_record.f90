@@ -1,8 +1,9 @@
 !> What solved contacts say beside their film: energy, friction of asperities, choices of a deck, profiles of a run.
 module test_ehl_record
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller_kinds, only : wp
-   use camroller_error, only : error_t
+   use camroller_kinds, only : wp, celsius_zero, degree
+   use camroller_error, only : error_t, kind_convergence
    use camroller_case, only : case_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_profiles, only : make_profiles, plain_model
@@ -12,6 +13,7 @@ module test_ehl_record
    use camroller_result, only : result_t, get_series
    use camroller_run, only : run_case
    use closeness, only : check_close, check_scaled, expect_success, has_failed
+   use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, set_point, point_speeds, point_viscosities
    implicit none
    private
@@ -27,7 +29,8 @@ contains
          new_unittest("energy balances over a solved cycle", test_energy), &
          new_unittest("the shear strength of the surface film acts on the area that asperities touch", test_shear_strength), &
          new_unittest("shear thinning and flow factors act if the case asks for them", test_choices), &
-         new_unittest("profiles of a run carry its load, and their friction is near the closed formulas", test_run) &
+         new_unittest("profiles of a run carry its load, and their friction is near the closed formulas", test_run), &
+         new_unittest("where no contact is solved there are no profiles, where one is, the others have no numbers", test_gaps) &
          ]
    end subroutine collect_ehl_record
 
@@ -127,6 +130,7 @@ contains
       type(result_t) :: result
       type(ehl_record_t) :: record
       type(error_t), allocatable :: failure
+      character(len=:), allocatable :: gaps
       real(wp), allocatable :: load(:), slip(:)
       real(wp) :: carried
       integer :: i, n
@@ -136,7 +140,7 @@ contains
       case%numerics%output_step = 8.0_wp*case%numerics%output_step
       case%ehl = ehl_t(accuracy=5.0e-2_wp, profiles=.true.)
       call run_case(case, result, failure)
-      if (.not. allocated(failure)) call make_profiles(record, case, result, failure)
+      if (.not. allocated(failure)) call make_profiles(record, case, result, gaps, failure)
       if (.not. allocated(failure)) call get_series(result, "contact_load", load, failure)
       if (.not. allocated(failure)) call get_series(result, "sliding_speed", slip, failure)
       if (has_failed(failure, error)) return
@@ -158,5 +162,40 @@ contains
          call check(error, all(ratio > 0.97_wp .and. ratio < 1.15_wp), "rolling resistance")
       end associate
    end subroutine test_run
+
+   !> Oil of -20 degC at 3000 rev/min: film and temperature find no common state at two angles (135 and 225 deg), and do at 45 deg.
+   subroutine test_gaps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result, part
+      type(ehl_record_t) :: record
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: gaps
+      logical, allocatable :: lost(:)
+      integer :: i
+
+      call get_deck_case("decks/heated_contact.nml", case, failure, "operating_point.speed_rpm=3000")
+      if (.not. allocated(failure)) then
+         case%operating_point%oil_temperature = -20.0_wp + celsius_zero
+         case%numerics%output_step = 45.0_wp*degree
+         call run_case(case, result, failure)
+      end if
+      if (.not. allocated(failure)) call make_profiles(record, case, result, gaps, failure)
+      if (has_failed(failure, error)) return
+      lost = ieee_is_nan(column(record, "film_min"))
+      call check(error, any(lost) .and. count(lost) < 3 .and. index(gaps, "did not end at") > 0, gaps)
+      if (allocated(error)) return
+      call check(error, all(lost .eqv. ieee_is_nan(record%pressure(1, :))) &
+         & .and. .not. any(ieee_is_nan(column(record, "load"))), "numbers")
+      if (allocated(error)) return
+      part = result
+      part%angle = pack(result%angle, lost)
+      deallocate (part%series_values)
+      part%series_values = result%series_values(pack([(i, i=1, size(lost))], lost), :)
+      call make_profiles(record, case, part, gaps, failure)
+      call check(error, allocated(failure), "profiles without a film")
+      if (allocated(error)) return
+      call check(error, failure%kind, kind_convergence)
+   end subroutine test_gaps
 
 end module test_ehl_record
