@@ -107,7 +107,8 @@ contains
       call add(commands, "rerun", "FILE.h5", "compute a file again and compare every bit", &
          & "Compute the cases of a result file (of 'ehl' too) again from the deck stored in it, and compare every bit"//n// &
          & "of them: swept values, status, messages, scalars, series, histories, profiles. What repeats the deck,"//n// &
-         & "/deck/values and /deck/remarks, and rows of a table of cases, which are the input, are not compared."//n// &
+         & "/deck/values and /deck/remarks, and rows of a table of cases, which are the input, are not compared;"//n// &
+         & "where results differ, defaults that were others when the file was made are named first."//n// &
          & "Reports what differs and by how much, and which build made the file. The exit code is 7 where something differs.")
       call add_option(commands, "--threads", "-j", "N", meaning_threads)
       call add_option(commands, "--log-every", "", "S", meaning_log, excluded="--quiet")

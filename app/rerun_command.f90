@@ -12,6 +12,7 @@ module camroller_rerun_command
    use camroller_differences, only : another_text
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, override_t, add_override, parse_deck
+   use camroller_deck_document, only : echo_t, get_echo
    use camroller_deck_sweep, only : sweep_size
    use camroller_deck_sweep_keys, only : series_all, series_choice, series_chosen
    use camroller_deck_files, only : list_case_tables
@@ -19,13 +20,13 @@ module camroller_rerun_command
    use camroller_ehl_rerun, only : rerun_contacts
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_object, only : hdf5_object_t
-   use camroller_hdf5_read, only : has_member, list_members, member_length, open_file, read_extents, read_integer_attribute, &
-      & read_numbers, read_text, read_text_attribute
+   use camroller_hdf5_read, only : has_member, is_text_dataset, list_members, member_length, open_file, read_extents, &
+      & read_integer_attribute, read_numbers, read_text, read_text_attribute
    use camroller_text_lines, only : line_t
-   use camroller_number_text, only : agreeing, counted, integer_text, number_text
+   use camroller_number_text, only : agreeing, counted, integer_text, is_number, number_text
    use camroller_output, only : not_computed, result_format
    use camroller_console, only : console_t, seconds_since, start_console
-   use camroller_quotes, only : in_quotes
+   use camroller_quotes, only : in_quotes, without_quotes
    use camroller_result_columns, only : check_has_cases, holds_contacts_alone
    use camroller_run_facts, only : find_other_build
    use camroller_settings, only : take
@@ -55,7 +56,7 @@ contains
       type(console_t) :: console
       type(team_t) :: alone
       type(runs_t) :: runs
-      character(len=:), allocatable :: facts
+      character(len=:), allocatable :: facts, defaults
       integer :: missing
       logical :: holds_contacts
 
@@ -64,6 +65,7 @@ contains
       if (allocated(error)) return
       call read_stored_deck(sink%file, config%subject, deck, error)
       if (.not. allocated(error)) call find_other_build(sink%file, facts, error)
+      if (.not. allocated(error)) call find_other_defaults(sink%file, deck, defaults)
       holds_contacts = holds_contacts_alone(sink%file)
       if (.not. (allocated(error) .or. holds_contacts)) call choose_series(sink%file, deck, loop, error)
       if (.not. (allocated(error) .or. holds_contacts)) call choose_cases(sink%file, sweep_size(deck%sweep), runs, error)
@@ -85,7 +87,7 @@ contains
       if (allocated(error)) return
       missing = sweep_size(deck%sweep) - loop%total
       if (holds_contacts) missing = 0
-      call conclude(config, sink, loop, console, missing, facts, error)
+      call conclude(config, sink, loop, console, missing, defaults, facts, error)
    end subroutine rerun_file
 
    !> Cases to be computed: those that the file has, which are not all where it is partial.
@@ -275,7 +277,7 @@ contains
    end subroutine choose_series
 
    !> Say what came of it, the largest difference first.
-   subroutine conclude(config, sink, loop, console, missing, facts, error)
+   subroutine conclude(config, sink, loop, console, missing, defaults, facts, error)
       !> What to do
       type(config_t), intent(in) :: config
       !> What differs
@@ -286,8 +288,8 @@ contains
       type(console_t), intent(in) :: console
       !> Cases that the file does not have
       integer, intent(in) :: missing
-      !> What tells the builds apart
-      character(len=*), intent(in) :: facts
+      !> Lines of keys whose defaults are others now; what tells the builds apart
+      character(len=*), intent(in) :: defaults, facts
       !> What differs
       type(error_t), allocatable, intent(out) :: error
 
@@ -307,7 +309,7 @@ contains
          return
       end if
       text = config%subject//": "//integer_text(sink%differing)//" of "//counted(sink%cases, "case")// &
-         & agreeing(sink%differing, " differs", " differ")
+         & agreeing(sink%differing, " differs", " differ")//defaults
       allocate (order(size(sink%differences)))
       call find_order(-sink%differences%largest, order)
       do i = 1, size(order)
@@ -327,6 +329,46 @@ contains
          & " have")//" no result now, first case "//integer_text(sink%first_failing)//": "//sink%message
       call raise(error, kind_difference, text//builds_in_words(facts, build_commit))
    end subroutine conclude
+
+   !> Keys that the deck leaves to their defaults, where these made the file with other values than they have now: lines of words.
+   subroutine find_other_defaults(file, deck, lines)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Its deck, as it is read now
+      type(deck_t), intent(in) :: deck
+      !> The lines, each behind a new line; empty where none differs
+      character(len=:), allocatable, intent(out) :: lines
+
+      type(echo_t) :: echo
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: stored, name
+      real(wp), allocatable :: number(:) ! [unit of the key]
+      real(wp) :: now ! [unit of the key]
+      integer :: i
+
+      lines = ""
+      call get_echo(deck, echo, .false.)
+      do i = 1, size(echo%keys)
+         if (echo%origins(i) /= "default") cycle
+         name = "/deck/values/"//trim(echo%keys(i))
+         if (.not. has_member(file, name)) cycle
+         if (is_text_dataset(file, name)) then
+            call read_text(file, name, [integer ::], stored, failure)
+            if (allocated(failure) .or. stored == without_quotes(echo%values(i)%text)) cycle
+            stored = "'"//stored//"'"
+         else
+            call read_numbers(file, name, [integer ::], [integer ::], number, failure)
+            if (allocated(failure)) cycle
+            if (is_number(echo%values(i)%text)) then
+               read (echo%values(i)%text, *) now
+               if (abs(number(1) - now) <= 0.0_wp) cycle
+            end if
+            stored = number_text(number(1))
+         end if
+         lines = lines//new_line("a")//"  "//trim(echo%keys(i))//", which the deck does not give: the default was "//stored// &
+            & " when the file was made, and is "//echo%values(i)%text//" now"
+      end do
+   end subroutine find_other_defaults
 
    !> What tells the build of a file from this one, each fact on a line of its own.
    pure function builds_in_words(facts, commit) result(words)

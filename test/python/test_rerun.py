@@ -44,6 +44,25 @@ def test_differences_are_reported(camroller, folder, tmp_path):
     assert "  commit: 'another' made the file, this is '" in result.stderr
 
 
+def test_a_default_that_made_the_file_and_is_another_now_is_named(camroller, folder, tmp_path):
+    """A file of a version whose defaults were others: its values say so, and its numbers are another law's. Without it, not a word."""
+    shutil.copy(folder / "deck.h5", tmp_path / "old.h5")
+    with h5py.File(tmp_path / "old.h5", "r+") as file:
+        file["summary/mean_torque_drive"][0] *= 2
+        names = {name for name, item in file["deck/values"].items() if item.attrs["given"] == "default"}
+    assert "which the deck does not give" not in run(camroller, "rerun", "old.h5", folder=tmp_path).stderr
+    assert {"spring.seat_stiffness_N_m", "film.range_policy"} <= names
+    with h5py.File(tmp_path / "old.h5", "r+") as file:
+        file["deck/values/spring.seat_stiffness_N_m"][()] = 2e7
+        file["deck/values/film.range_policy"][()] = "stop"
+    told = run(camroller, "rerun", "old.h5", folder=tmp_path).stderr
+    assert ("\n  spring.seat_stiffness_N_m, which the deck does not give: the default was 2e7 when the file was made, and is 1e7 now\n"
+            in told)
+    assert ("\n  film.range_policy, which the deck does not give: the default was 'stop' when the file was made, and is 'warn' now\n"
+            in told)
+    assert told.index("film.range_policy") < told.index("summary/mean_torque_drive")
+
+
 def test_the_same_build_is_claimed_only_where_its_sources_are_known(camroller, folder, tmp_path):
     shutil.copy(folder / "deck.h5", tmp_path / "changed.h5")
     with h5py.File(tmp_path / "changed.h5", "r+") as file:
