@@ -12,7 +12,8 @@ module camroller ! style: private because it gives on all that it uses
    use camroller_layout, only : layout_t
    use camroller_monitor, only : monitor_t
    use camroller_sweep, only : run_sweep
-   use camroller_sweep_file, only : sweep_options_t, sweep_report_t
+   use camroller_sweep_file, only : sweep_made, sweep_options_t, sweep_report_t, sweep_shard_done, sweep_unfinished, &
+      & sweep_was_complete
    implicit none
    public
 

@@ -4,7 +4,8 @@
 module camroller_core ! style: private because it gives on all that it uses
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_blas_threads, only : use_one_blas_thread
-   use camroller_error, only : error_t, kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
+   use camroller_error, only : error_t, kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal, &
+      & kind_memory, kind_unfinished
    use camroller_version, only : version_text, version_number
    use camroller_case, only : case_t, operating_point_t, numerics_t, selection_t
    use camroller_engine, only : engine_t

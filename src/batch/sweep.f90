@@ -42,7 +42,7 @@ contains
    subroutine run_sweep(deck, path, options, report, error, monitor, team)
       !> The deck
       type(deck_t), intent(in) :: deck
-      !> Path of the result file
+      !> Path of the result file; blanks at its end are none of it
       character(len=*), intent(in) :: path
       !> How
       type(sweep_options_t), intent(in) :: options
@@ -120,10 +120,10 @@ contains
          call raise(error, kind_usage, "run_sweep: the deck has not been read; call read_deck or parse_deck first")
          return
       end if
-      study%path = path
+      study%path = trim(path)
       call study_facts(deck, study%facts)
       call list_deck_files(deck, inputs)
-      call check_place(path, result_kind, inputs, error)
+      call check_place(study%path, result_kind, inputs, error)
       if (allocated(error)) return
       study%first = int((options%shard - 1)*int(study%facts%cases, int64)/options%shards) + 1
       study%last = int(options%shard*int(study%facts%cases, int64)/options%shards)

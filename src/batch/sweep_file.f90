@@ -25,7 +25,7 @@ module camroller_sweep_file
    implicit none
    private
 
-   public :: study_t, sweep_options_t, sweep_report_t, sweep_made, sweep_was_complete, sweep_shard_done
+   public :: study_t, sweep_options_t, sweep_report_t, sweep_unfinished, sweep_made, sweep_was_complete, sweep_shard_done
    public :: make_result, open_result, conclude, refuse_other, scan_all, tell_damages
 
    !> How a sweep may end: without its file; the file was made; it was there with all cases; all cases of a shard are computed
@@ -47,7 +47,7 @@ module camroller_sweep_file
 
    !> What came of a sweep
    type :: sweep_report_t
-      !> One of the above
+      !> One of `sweep_unfinished` and those beside it
       integer :: ending = sweep_unfinished
       !> Cases of the shard, where a shard was computed
       integer :: cases_of_shard = 0

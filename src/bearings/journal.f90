@@ -60,9 +60,9 @@ module camroller_journal
       real(wp), allocatable :: bearing_positions(:)
       !> Places of the cams along the shaft, between the first and the last bearing [m]
       real(wp), allocatable :: cam_positions(:)
-      !> Angle by which each cam's event follows the first cam's [rad]
+      !> Angle by which each cam's event follows the first cam's; this and the next lists have a value for each cam [rad]
       real(wp), allocatable :: cam_phases(:)
-      !> Lobe shape of each cam: 1 is the case's lift, 2 its second lift
+      !> Lobe shape of each cam: 1 is the case's lift, 2 its second lift, which must be there then
       integer, allocatable :: cam_lobes(:)
       !> Camshaft of each cam, from 1; not allocated where all are on one. Camshafts have the same bearings at the same places
       integer, allocatable :: cam_shafts(:)

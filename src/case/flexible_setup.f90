@@ -13,10 +13,10 @@ module camroller_flexible_setup
    use camroller_pivot, only : pivot_t
    use camroller_pivot_friction, only : largest_slope, pivot_part_t
    use camroller_torque, only : normal_direction
-   use camroller_spring_modes, only : new_spring_modes, effective_mass
+   use camroller_spring_modes, only : new_spring_modes, effective_mass, most_modes
    use camroller_lash_adjuster, only : new_adjuster
    use camroller_flexible_parts, only : flexible_t, set_contacts
-   use camroller_number_text, only : number_text, fixed_text
+   use camroller_number_text, only : fixed_text, integer_text, number_text
    implicit none
    private
 
@@ -156,6 +156,8 @@ contains
       if (.not. allocated(case%spring_surge)) return
       if (.not. case%spring_surge%mass > 0.0_wp .or. .not. case%spring%stiffness > 0.0_wp) then
          call raise(error, kind_deck, "spring_surge: the spring's mass and stiffness must be above 0")
+      else if (case%spring_surge%modes < 1 .or. case%spring_surge%modes > most_modes) then
+         call raise(error, kind_deck, "spring_surge: the number of modes must be from 1 to "//integer_text(most_modes))
       else if (case%spring_surge%mass >= 3.0_wp*case%masses%valve) then
          call raise(error, kind_deck, "spring_surge: a third of spring_surge.mass_kg = "// &
             & number_text(case%spring_surge%mass, 4)//" is more than masses.valve_kg = "//number_text(case%masses%valve, 4)// &

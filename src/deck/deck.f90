@@ -10,7 +10,7 @@ module camroller_deck
    use camroller_pivot, only : assumed_centre, assumed_inertia
    use camroller_case_columns, only : column_reader_t
    use camroller_mistakes, only : add_mistake, mistakes_t, raise_mistakes, override_place
-   use camroller_text_file, only : read_standard_input, read_text_file, folder_of
+   use camroller_text_file, only : read_standard_input, read_text_file, folder_of, utf8_mark
    use camroller_deck_include, only : expand_includes
    use camroller_deck_origins, only : origins_t, say_origin, place_mistakes
    use camroller_deck_text, only : deck_text_t, read_shape
@@ -61,7 +61,7 @@ contains
    subroutine read_deck(deck, path, overrides, error, reader)
       !> The deck
       type(deck_t), intent(out) :: deck
-      !> Path of the file
+      !> Path of the file; blanks at its end are none of it
       character(len=*), intent(in) :: path
       !> Values given beside the deck
       type(override_t), intent(in) :: overrides(:)
@@ -75,13 +75,13 @@ contains
       if (path == "-") then
          call read_standard_input(text, error)
       else
-         call read_text_file(path, text, error)
+         call read_text_file(trim(path), text, error)
       end if
       if (allocated(error)) return
       if (path == "-") then
          call parse_deck(deck, text, "standard input", "", overrides, error, reader=reader)
       else
-         call parse_deck(deck, text, path, folder_of(path), overrides, error, reader=reader)
+         call parse_deck(deck, text, trim(path), folder_of(path), overrides, error, reader=reader)
       end if
    end subroutine read_deck
 
@@ -89,7 +89,7 @@ contains
    subroutine parse_deck(deck, text, name, folder, overrides, error, tables, reader)
       !> The deck
       type(deck_t), intent(out) :: deck
-      !> Its text
+      !> Its text, in UTF-8, with or without that mark at its start
       character(len=*), intent(in) :: text
       !> Name for messages
       character(len=*), intent(in) :: name
@@ -105,12 +105,15 @@ contains
       class(column_reader_t), intent(in), optional :: reader
 
       type(mistakes_t) :: mistakes, consequences
+      integer :: first
 
+      first = 1
+      if (index(text, utf8_mark) == 1) first = 1 + len(utf8_mark)
       if (present(tables)) deck%tables = tables
       allocate (deck%overrides, source=overrides)
       deck%name = name
       deck%folder = folder
-      call expand_includes(text, folder, deck%text, deck%origins, mistakes)
+      call expand_includes(text(first:), folder, deck%text, deck%origins, mistakes)
       call new_schema(deck%schema)
       if (mistakes%count > 0) then
          ! What is missing then, or there twice, follows from it

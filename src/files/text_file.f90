@@ -12,7 +12,7 @@ module camroller_text_file
    implicit none
    private
 
-   public :: read_text_file, read_bytes, read_standard_input, join_path, folder_of
+   public :: read_text_file, read_bytes, read_standard_input, join_path, folder_of, utf8_mark
 
    !> Marks of a text at its first bytes: of UTF-8, which is skipped, and of UTF-16, which is not read
    character(len=*), parameter :: utf8_mark = char(239)//char(187)//char(191), utf16_marks(*) = &
@@ -59,6 +59,8 @@ contains
             & integer_text(int(largest_size/1024_int64/1024_int64))//" MB")
       else if (status /= 0) then
          call raise(error, kind_file, "nothing can be read from the standard input")
+      else if (any(text(:min(2, len(text))) == utf16_marks)) then
+         call raise(error, kind_file, "the standard input is a text in UTF-16; give it in UTF-8")
       else if (.not. is_text(text)) then
          call raise(error, kind_file, "the standard input is no text: it holds bytes that no text has")
       end if

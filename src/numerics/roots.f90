@@ -90,8 +90,8 @@ contains
 
       !> Point of the smallest value so far [x]
       real(wp) :: best
-      !> Tolerance as a part of the bracket [-]
-      real(wp) :: part
+      !> Width of the bracket [x]; tolerance as a part of it, all of one that has none [-]
+      real(wp) :: width, part
       !> Next step as a part of the bracket, from its newest end [-]
       real(wp) :: step
 
@@ -112,7 +112,9 @@ contains
 
       best = bracket%x(1)
       if (abs(bracket%f(2)) < abs(value)) best = bracket%x(2)
-      part = (2.0_wp*spacing(best) + 0.5_wp*bracket%tolerance)/abs(bracket%x(2) - bracket%x(1))
+      width = abs(bracket%x(2) - bracket%x(1))
+      part = 1.0_wp
+      if (width > 0.0_wp) part = (2.0_wp*spacing(best) + 0.5_wp*bracket%tolerance)/width
       if (abs(value) <= 0.0_wp .or. part > 0.5_wp) then
          bracket%status = root_found
          bracket%trial = best

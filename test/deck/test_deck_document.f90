@@ -29,7 +29,8 @@ contains
          new_unittest("the resolved deck comes to the same values", resolved_is_the_same), &
          new_unittest("the echo says what was given and what is a default", echo_tells_origin), &
          new_unittest("every key has a meaning, and a default or an example or neither", keys_have_meanings), &
-         new_unittest("the page has a row for every key", page_is_complete) &
+         new_unittest("the page has a row for every key", page_is_complete), &
+         new_unittest("a mark of UTF-8 at the start and blanks behind a path are none of a deck", mark_and_blanks_are_skipped) &
          ]
    end subroutine collect_deck_document
 
@@ -178,5 +179,19 @@ contains
          if (allocated(error)) return
       end do
    end subroutine page_is_complete
+
+   subroutine mark_and_blanks_are_skipped(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(deck_t) :: deck
+      type(error_t), allocatable :: raised
+      type(override_t) :: none(0)
+      character(len=80) :: path
+
+      call parse_sample(char(239)//char(187)//char(191)//sample_deck(), deck, raised)
+      path = "decks/thesis.nml"
+      if (.not. allocated(raised)) call read_deck(deck, path, none, raised)
+      if (allocated(raised)) call test_failed(error, raised%message)
+   end subroutine mark_and_blanks_are_skipped
 
 end module test_deck_document

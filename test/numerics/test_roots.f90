@@ -1,6 +1,6 @@
 !> Bracketed root: accuracy, cost, refusals.
 module test_roots
-   use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only : ieee_divide_by_zero, ieee_get_flag, ieee_set_flag, ieee_value, ieee_quiet_nan
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_found, root_wanted, root_not_bracketed
@@ -20,7 +20,8 @@ contains
          new_unittest("no trial leaves the bracket", test_inside), &
          new_unittest("a root at an end is found at once", test_end), &
          new_unittest("ends of one sign are refused", test_one_sign), &
-         new_unittest("a value that is no number ends the search", test_nan) &
+         new_unittest("a value that is no number ends the search", test_nan), &
+         new_unittest("a jump at one point, a bracket without width, is found without a division by zero", test_point) &
          ]
    end subroutine collect_roots
 
@@ -105,5 +106,21 @@ contains
       call narrow_bracket(bracket, ieee_value(1.0_wp, ieee_quiet_nan))
       call check(error, bracket%status == root_not_bracketed)
    end subroutine test_nan
+
+   subroutine test_point(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(bracket_t) :: bracket
+      logical :: divides
+
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call start_bracket(bracket, 1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp, 0.0_wp)
+      do while (bracket%status == root_wanted)
+         call narrow_bracket(bracket, 0.5_wp)
+      end do
+      call ieee_get_flag(ieee_divide_by_zero, divides)
+      call check(error, bracket%status == root_found .and. .not. abs(bracket%trial - 1.0_wp) > 0.0_wp, "root")
+      if (allocated(error)) return
+      call check(error, .not. divides, "division by zero")
+   end subroutine test_point
 
 end module test_roots

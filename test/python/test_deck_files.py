@@ -35,6 +35,7 @@ def test_a_byte_order_mark_is_skipped(camroller, tmp_path, text):
     path = tmp_path / "deck.nml"
     path.write_bytes(b"\xef\xbb\xbf" + text.encode("utf-8"))
     assert check(camroller, path).returncode == 0
+    assert subprocess.run([camroller, "check", "-"], input=path.read_bytes(), capture_output=True, check=False).returncode == 0
     path.write_bytes(b"\xef\xbb\xbf&rolle mass_kg = 1 /\n")
     assert f"{path}:1:1: unknown group &rolle; did you mean 'roller'?" in check(camroller, path).stderr
 

@@ -1,8 +1,9 @@
 !> All followers of a case driven together: outcomes of other shafts, and what is refused without harm.
 module test_shaft_faults
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller, only : wp, error_t, case_t, shaft_simulation_t, shaft_outcome_t, kind_usage, start_shaft, &
-      & advance_shaft, cam_place, shaft_values
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use camroller, only : wp, error_t, case_t, shaft_simulation_t, shaft_outcome_t, kind_deck, kind_usage, start_shaft, &
+      & advance_shaft, cam_place, result_t, run_case, shaft_values
    use deck_cases, only : get_deck_case
    use closeness, only : expect_error, has_failed
    use driven_trains, only : steady
@@ -18,7 +19,10 @@ contains
 
       testsuite = [ &
          new_unittest("an outcome serves one shaft after another, with more bearings, with fewer and with none", test_reused), &
-         new_unittest("a cam that is not there, and an outcome of no step, are errors", test_values_refused) &
+         new_unittest("a cam that is not there, and an outcome of no step, are errors", test_values_refused), &
+         new_unittest("lists of a shaft made by hand that are missing or do not fit are errors, in runs and steps", &
+            & test_lists_refused), &
+         new_unittest("more modes of a spring than there are places are an error", test_modes_refused) &
          ]
    end subroutine collect_shaft_faults
 
@@ -108,5 +112,82 @@ contains
       call cam_place(unstarted, 1, lobe, camshaft, phase, failure)
       if (.not. allocated(error)) call expect_error(error, failure, kind_usage, "start_shaft")
    end subroutine test_values_refused
+
+   subroutine test_lists_refused(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: faults = 11
+      type(case_t) :: given, the_case
+      type(shaft_simulation_t) :: shaft
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      call get_deck_case("decks/mixed_bearings.nml", given, failure)
+      if (has_failed(failure, error)) return
+      do i = 1, faults
+         the_case = given
+         call spoil(the_case, i)
+         call run_case(the_case, result, failure)
+         call expect_error(error, failure, kind_deck, "cam_bearings: ")
+         if (allocated(error)) return
+         call start_shaft(shaft, the_case, 0.0_wp, failure)
+         call expect_error(error, failure, kind_deck, "cam_bearings: ")
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> A case with one fault.
+      subroutine spoil(the_case, fault)
+         type(case_t), intent(inout) :: the_case
+         !> Number of the fault
+         integer, intent(in) :: fault
+
+         associate (shaft => the_case%cam_bearings)
+            select case (fault)
+            case (1)
+               deallocate (shaft%bearing_positions)
+            case (2)
+               deallocate (shaft%cam_positions)
+            case (3)
+               deallocate (shaft%cam_phases)
+            case (4)
+               deallocate (shaft%cam_lobes)
+            case (5)
+               deallocate (shaft%follower_angles)
+            case (6)
+               shaft%cam_positions = [0.02_wp, 0.04_wp]
+            case (7)
+               shaft%cam_lobes = [2]
+            case (8)
+               shaft%bearing_positions(1) = ieee_value(1.0_wp, ieee_quiet_nan)
+            case (9)
+               shaft%cam_shafts = [3]
+            case (10)
+               shaft%bearing_positions = [real(wp) ::]
+            case (11)
+               shaft%follower_angles(1) = ieee_value(1.0_wp, ieee_quiet_nan)
+            end select
+         end associate
+      end subroutine spoil
+   end subroutine test_lists_refused
+
+   subroutine test_modes_refused(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: modes(*) = [0, 21, 99]
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      call get_deck_case("decks/lash_adjuster.nml", the_case, failure)
+      if (has_failed(failure, error)) return
+      do i = 1, size(modes)
+         the_case%spring_surge%modes = modes(i)
+         call run_case(the_case, result, failure)
+         call expect_error(error, failure, kind_deck, "modes must be from 1 to 20")
+         if (allocated(error)) return
+      end do
+   end subroutine test_modes_refused
 
 end module test_shaft_faults
