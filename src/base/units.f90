@@ -74,6 +74,10 @@ module camroller_units
       unit_t("kJ_mol", "kJ/mol", 1.0e3_wp, 1.0_wp, 0.0_wp), &
       unit_t("J_kg_K", "J/(kg K)", 1.0_wp, 1.0_wp, 0.0_wp)]
 
+   integer :: each
+   !> Lengths of the suffixes
+   integer, parameter :: suffix_lengths(*) = [(len_trim(known_units(each)%suffix), each=1, size(known_units))]
+
 contains
 
    !> Unit that the last words of a key name; the longest that fits.
@@ -83,15 +87,16 @@ contains
       !> Its unit; no unit (or SI) where the last words are none
       type(unit_t) :: unit
 
-      integer :: i, longest, length, start
+      integer :: i, longest, length, last, start
 
       longest = 0
+      last = len_trim(key)
       do i = 1, size(known_units)
-         length = len_trim(known_units(i)%suffix)
-         start = len_trim(key) - length
+         length = suffix_lengths(i)
+         start = last - length
          if (length <= longest .or. start < 2) cycle
          if (key(start:start) /= "_") cycle
-         if (key(start + 1:len_trim(key)) /= known_units(i)%suffix(:length)) cycle
+         if (key(start + 1:last) /= known_units(i)%suffix(:length)) cycle
          longest = length
          unit = known_units(i)
       end do

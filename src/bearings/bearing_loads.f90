@@ -8,7 +8,7 @@ module camroller_bearing_loads
    implicit none
    private
 
-   public :: belt_pull_t, bearing_shares, pull_loads
+   public :: belt_pull_t, bearing_shares, pull_loads, add_forces
 
    !> Constant force on a camshaft, of the belt or chain that drives it
    type :: belt_pull_t
@@ -56,5 +56,30 @@ contains
          loads(2, :) = pull%force*sin(pull%angle)*shares
       end associate
    end function pull_loads
+
+   !> Add to the loads of the bearings of one camshaft what both beside each of its cams carry of the force there.
+   pure subroutine add_forces(cams, bearings, shafts, shaft, left, shares, forces, loads)
+      !> Number of cams of all camshafts, of bearings of one
+      integer, intent(in) :: cams, bearings
+      !> Camshaft of each cam; the one wanted
+      integer, intent(in) :: shafts(cams), shaft
+      !> The first of both bearings beside each cam
+      integer, intent(in) :: left(cams)
+      !> Part of each cam's force that each bearing carries [-]
+      real(wp), intent(in) :: shares(bearings, cams)
+      !> Forces on the cams [N]
+      real(wp), intent(in) :: forces(2, cams)
+      !> The loads [N]
+      real(wp), intent(inout) :: loads(2, bearings)
+
+      integer :: cam, bearing
+
+      do cam = 1, cams
+         if (shafts(cam) /= shaft) cycle
+         do bearing = left(cam), left(cam) + 1
+            loads(:, bearing) = loads(:, bearing) + shares(bearing, cam)*forces(:, cam)
+         end do
+      end do
+   end subroutine add_forces
 
 end module camroller_bearing_loads

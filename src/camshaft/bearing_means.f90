@@ -12,7 +12,8 @@ module camroller_bearing_means
    use camroller_journal, only : journal_solved, journal_t
    use camroller_journal_motion, only : moving_state
    use camroller_journal_orbit, only : bearing_load_t, orbit_t, place_at
-   use camroller_panels, only : panel_places, panel_weights, panels_t, refine_panels, sample_panel, sampled_t, start_panels
+   use camroller_panels, only : panel_places, panel_weights, panels_t, refine_panels, sample_panel, sampled_t, &
+      & start_panels, total_of
    use camroller_shaft, only : has_orbits, shaft_t
    implicit none
    private
@@ -98,7 +99,7 @@ contains
          call sample_panel(panels, means, ends(1, piece), ends(2, piece), error)
          if (allocated(error)) return
       end do
-      allowed = max(mean_accuracy(turn)*sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp))
+      allowed = max(mean_accuracy(turn)*total_of(panels%sizes(:, :panels%count)), tiny(1.0_wp))
       halvings = most_halvings
       call refine_panels(panels, means, allowed, halvings, error)
       if (allocated(error)) return

@@ -24,7 +24,7 @@ module camroller_shaft
    use camroller_journal_motion, only : moving_state
    use camroller_bearing_asperity, only : bearing_touch_t, bearing_state_t, new_touch, carry_load
    use camroller_bearing_heat, only : oil_flow
-   use camroller_bearing_loads, only : bearing_shares, pull_loads
+   use camroller_bearing_loads, only : add_forces, bearing_shares, pull_loads
    use camroller_shaft_drag, only : shaft_drag_t, check_shaft_drag, find_shaft_drag
    implicit none
    private
@@ -341,12 +341,21 @@ contains
 
       torques = 0.0_wp
       do cam = 1, size(shaft%lobes)
-         associate (values => cams(:, shaft%twins(cam)), k => shaft%shafts(cam))
-            torques(:, k) = torques(:, k) + values(:torque_count)
-            shaft%forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))
+         associate (twin => shaft%twins(cam))
+            call add_torques(cams(:torque_count, twin), torques(:, shaft%shafts(cam)))
+            shaft%forces(:, cam) = in_common_frame(shaft, cam, cams(torque_count + 1:, twin))
          end associate
       end do
    end subroutine add_cams
+
+   !> Add torques, whose number is known to the compiler.
+   pure subroutine add_torques(torques, sums)
+      !> What to add, and the sums [N m], last the energy residual [W]
+      real(wp), intent(in) :: torques(torque_count)
+      real(wp), intent(inout) :: sums(torque_count)
+
+      sums = sums + torques
+   end subroutine add_torques
 
    !> Torques and force of one cam at an angle of the first one: from the curve of the lobe shape where that is good enough.
    subroutine cam_at(solved, cam, angle, values, error)
@@ -413,20 +422,14 @@ contains
       real(wp), intent(in), optional :: angle
 
       type(bearing_state_t) :: state
-      integer :: cam, k, bearing, status
+      integer :: k, bearing, status
 
       torques = 0.0_wp
       if (.not. allocated(shaft%journal)) return
       associate (loads => shaft%loads)
          do k = 1, shaft%count
             loads = shaft%pull
-            do cam = 1, size(shaft%lobes)
-               if (shaft%shafts(cam) /= k) cycle
-               do bearing = shaft%left(cam), shaft%left(cam) + 1
-                  loads(1, bearing) = loads(1, bearing) + shaft%shares(bearing, cam)*forces(1, cam)
-                  loads(2, bearing) = loads(2, bearing) + shaft%shares(bearing, cam)*forces(2, cam)
-               end do
-            end do
+            call add_forces(size(forces, 2), size(loads, 2), shaft%shafts, k, shaft%left, shaft%shares, forces, loads)
             ! A neighbour that carries the same, as under a cam midway between two, has the same state
             do bearing = 1, size(loads, 2)
                if (present(angle) .and. (allocated(shaft%warm) .or. allocated(shaft%orbits))) then

@@ -278,7 +278,7 @@ contains
    end subroutine set_film_table
 
    !> Geometry at a cam angle.
-   pure subroutine evaluate_geometry(model, angle, position, status, path_only, without_slopes)
+   pure subroutine evaluate_geometry(model, angle, position, status, path_only, moments_only)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -287,13 +287,13 @@ contains
       type(position_t), intent(out) :: position
       !> 0 fine, negative: the finger cannot reach this lift
       integer, intent(out) :: status
-      !> Is the roller's path over the cam all that is wanted, or all but slopes? See `evaluate_position`
-      logical, intent(in), optional :: path_only, without_slopes
+      !> Is the roller's path over the cam all that is wanted, or what moments take? See `evaluate_position`
+      logical, intent(in), optional :: path_only, moments_only
 
       real(wp) :: lift(0:3) ! lift and its first three derivatives [m/rad^n]
 
       call evaluate_lift(model%lift_law, angle, lift)
-      call evaluate_position(model%linkage, lift, position, status, path_only, without_slopes)
+      call evaluate_position(model%linkage, lift, position, status, path_only, moments_only)
       position%angle = angle
    end subroutine evaluate_geometry
 

@@ -152,8 +152,8 @@ contains
 
       integer :: i
 
-      numbers = 0.0_wp
       if (record%position + size(numbers) > record%length) then
+         numbers = 0.0_wp
          record%is_short = .true.
          return
       end if

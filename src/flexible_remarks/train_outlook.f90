@@ -84,7 +84,7 @@ contains
          angle = two_pi*real(i - 1, wp)/points - pi
          rests = is_at_rest(model%lift_law, angle)
          if (.not. (rests .and. rested) .or. allocated(model%gas)) call evaluate_loading(model, angle, position, force, moments, &
-            & status, without_slopes=.true.)
+            & status, moments_only=.true.)
          if (status /= 0) return
          load(i) = moments%total/position%normal_arm
          lift(i) = model%speed**2*position%lift_curvature

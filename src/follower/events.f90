@@ -394,7 +394,7 @@ contains
       real(wp) :: force
       integer :: status
 
-      call evaluate_loading(model, angle, position, force, moments, status, without_slopes=.not. allocated(model%joints))
+      call evaluate_loading(model, angle, position, force, moments, status, moments_only=.not. allocated(model%joints))
       values = 1.0_wp
       if (status /= 0) return
       values(1) = position%lift - model%train%seat_lift

@@ -222,9 +222,9 @@ contains
       real(wp), parameter :: bend = 0.02_wp, little = 1.0e-4_wp, rounding = 1.0e-9_wp
       ! Angles that are the same but for rounding [rad]
       real(wp), parameter :: same = 1.0e-12_wp
-      ! Smallest and largest values [unit of each]; values over the extent of the quantities that have any [-]
+      ! Smallest and largest values [unit of each]; values over the extent of the quantities that have any [-], this [unit of each]
       real(wp), dimension(size(values, 1)) :: lowest, highest
-      real(wp), allocatable :: scaled(:, :)
+      real(wp), allocatable :: scaled(:, :), extents(:)
       ! Slopes of lines from the last telling point, at least and at most [1/rad]; way from it [rad], change of a quantity [-]
       real(wp), dimension(size(values, 1)) :: least, most
       real(wp) :: way, change
@@ -240,9 +240,10 @@ contains
          highest = max(highest, values(:, i))
       end do
       used = pack([(i, i=1, size(lowest))], highest - lowest > rounding*max(abs(lowest), abs(highest)))
+      extents = highest(used) - lowest(used)
       allocate (scaled(size(used), size(angles)))
       do i = 1, size(angles)
-         scaled(:, i) = values(used, i)/(highest(used) - lowest(used))
+         scaled(:, i) = values(used, i)/extents
       end do
       begun = 0
       last = 1
@@ -287,12 +288,13 @@ contains
       real(wp) :: shares(panel_points)
       integer :: piece, i
 
-      values = 0.0_wp
       is_known = .false.
       call find_piece(curve, angle, piece, shares)
-      if (piece == 0) return
-      is_known = curve%is_smooth(:, piece)
-      if (.not. any(is_known)) return
+      if (piece > 0) is_known = curve%is_smooth(:, piece)
+      if (.not. any(is_known)) then
+         values = 0.0_wp
+         return
+      end if
       ! In one pass, not in one for each point
       associate (v => curve%values(:, :, piece))
          do i = 1, curve_values
@@ -359,13 +361,13 @@ contains
          end if
       end do
       distances = (inside - curve%ends(piece))/(curve%ends(piece + 1) - curve%ends(piece)) - panel_places
-      point = minloc(abs(distances), 1)
-      if (abs(distances(point)) <= epsilon(1.0_wp)) then
+      do point = 1, panel_points
+         if (abs(distances(point)) > epsilon(1.0_wp)) cycle
          shares(point) = 1.0_wp
-      else
-         shares = interpolation_weights/distances
-         shares = shares/sum(shares)
-      end if
+         return
+      end do
+      shares = interpolation_weights/distances
+      shares = shares/sum(shares)
    end subroutine find_piece
 
    !> What a camshaft takes from a state.

@@ -10,7 +10,7 @@ module camroller_margins
    use camroller_gas, only : gas_force
    use camroller_lift, only : is_at_rest
    use camroller_minimum, only : minimum_t, start_minimum, narrow_minimum
-   use camroller_kinematics, only : position_t, evaluate_position
+   use camroller_kinematics, only : position_t, arm_angle_at, evaluate_position
    use camroller_dynamics, only : moments_t
    use camroller_pivot, only : pivot_force
    use camroller_state, only : evaluate_loading
@@ -256,12 +256,13 @@ contains
       real(wp) :: force, normal(2), tangent(2)
       integer :: status
 
-      call evaluate_loading(model, angle, position, force, moments, status, without_slopes=.true.)
+      call evaluate_loading(model, angle, position, force, moments, status, moments_only=.true.)
       associate (arm => merge(position%normal_arm, position%parallel_arm, model%has_exact_arm), &
          & inertia => moments%valve + moments%finger)
          splits(contact_load) = split_t((moments%total - inertia)/arm, inertia/arm)
       end associate
       if (size(splits) == contact_load) return
+      position%arm_angle = arm_angle_at(model%linkage, position%lift)
       call normal_direction(position%normal_arm, position%tangent_arm, model%linkage%a, position%arm_angle, &
          & model%linkage%sense, normal, tangent)
       associate (arm => position%normal_arm, tip_arm => position%valve_arm)

@@ -16,7 +16,7 @@ module camroller_state
    use camroller_flexible_parts, only : damper_count
    use camroller_spring_modes, only : most_modes
    use camroller_torque, only : cam_torque, contact_power, normal_direction
-   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_contact, of_needle, of_guide, &
+   use camroller_torque_list, only : torque_count, sum_of_losses, sum_of_torques, of_geometric, of_contact, of_needle, of_guide, &
       & of_roller_inertia, of_residual, of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag
    implicit none
    private
@@ -77,7 +77,7 @@ module camroller_state
 contains
 
    !> Geometry and moments: what depends on the cam angle alone.
-   pure subroutine evaluate_loading(model, angle, position, force, moments, status, without_slopes)
+   pure subroutine evaluate_loading(model, angle, position, force, moments, status, moments_only)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -90,11 +90,11 @@ contains
       type(moments_t), intent(out) :: moments
       !> 0 fine, negative: the finger cannot reach this lift
       integer, intent(out) :: status
-      !> May slopes of the geometry be left out, see `evaluate_position`? Friction of joints asks for them
-      logical, intent(in), optional :: without_slopes
+      !> May all of the geometry be left out that moments do not take, see `evaluate_position`? Friction of joints asks for more
+      logical, intent(in), optional :: moments_only
 
       force = 0.0_wp
-      call evaluate_geometry(model, angle, position, status, without_slopes=without_slopes)
+      call evaluate_geometry(model, angle, position, status, moments_only=moments_only)
       if (status /= 0) return
       if (allocated(model%gas)) force = gas_force(model%gas, angle)
       call evaluate_moments(model%train, position, model%speed, force, moments)
@@ -352,8 +352,8 @@ contains
       !> State with its torques by source
       type(state_t), intent(inout) :: state
 
-      state%torque_friction = sum(state%torques, mask=is_loss)
-      state%torque_drive = sum(state%torques, mask=is_torque)
+      state%torque_friction = sum_of_losses(state%torques)
+      state%torque_drive = sum_of_torques(state%torques)
    end subroutine add_sums
 
 end module camroller_state

@@ -4,12 +4,12 @@
 !> which is what netCDF-4 files use.
 module camroller_hdf5_attribute
    use, intrinsic :: iso_c_binding, only : c_loc, c_null_char, c_ptr
-   use hdf5, only : hid_t, h5aclose_f, h5acreate_f, h5awrite_f, h5sclose_f, h5tclose_f, h5t_ieee_f64le, &
-      & h5t_native_double, h5t_native_integer, h5t_std_i32le
+   use hdf5, only : hid_t, h5aclose_f, h5acreate_f, h5awrite_f, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, &
+      & h5t_std_i32le
    use h5ds, only : h5dsattach_scale_f, h5dsset_scale_f
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use camroller_hdf5_object, only : hdf5_object_t, open_space, open_text_type, raise_object
+   use camroller_hdf5_object, only : hdf5_object_t, raise_object
    implicit none
    private
 
@@ -37,18 +37,10 @@ contains
 
       character(len=:), allocatable, target :: letters
       type(c_ptr), target :: address(1)
-      integer(hid_t) :: text_type
-      integer :: status, ignored
 
       letters = trim(text)//c_null_char
       address(1) = c_loc(letters)
-      call open_text_type(text_type, status)
-      if (status /= 0) then
-         call raise_object(error, object)
-         return
-      end if
-      call put_scalar(object, name, text_type, text_type, c_loc(address), error)
-      call h5tclose_f(text_type, ignored)
+      call put_scalar(object, name, object%lists%texts, object%lists%texts, c_loc(address), error)
    end subroutine put_text
 
    !> Give an object an attribute that is a real.
@@ -143,16 +135,14 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      integer(hid_t) :: attribute, space
+      integer(hid_t) :: attribute
       integer :: status, ignored
 
       attribute = -1_hid_t
-      call open_space([integer ::], space, status)
-      if (status == 0) call h5acreate_f(object%id, name, file_type, space, attribute, status)
+      call h5acreate_f(object%id, name, file_type, object%lists%one_value, attribute, status)
       if (status == 0) call h5awrite_f(attribute, memory_type, address, status)
       if (status /= 0) call raise_object(error, object)
       if (attribute >= 0_hid_t) call h5aclose_f(attribute, ignored)
-      call h5sclose_f(space, ignored)
    end subroutine put_scalar
 
 end module camroller_hdf5_attribute

@@ -8,14 +8,14 @@ module camroller_hdf5_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_f_pointer, c_int, c_int64_t, c_loc, c_null_char, c_ptr
    use hdf5, only : hid_t, hsize_t, h5dcreate_f, h5dget_space_f, h5dwrite_f, h5fclose_f, h5fcreate_f, h5fflush_f, &
       & h5fget_filesize_f, h5gcreate_f, h5oclose_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, &
-      & h5pset_fclose_degree_f, h5pset_shuffle_f, h5sclose_f, h5sselect_hyperslab_f, h5tclose_f, h5f_acc_excl_f, &
+      & h5pset_fclose_degree_f, h5pset_shuffle_f, h5sclose_f, h5sselect_hyperslab_f, h5f_acc_excl_f, &
       & h5f_close_strong_f, h5f_scope_global_f, h5p_file_access_f, h5p_file_create_f, h5p_default_f, h5p_group_create_f, &
       & h5s_all_f, h5s_select_set_f, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, h5t_std_i32le
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file
    use camroller_hdf5_lists, only : close_lists, object_list, open_lists
    use camroller_hdf5_status, only : raise_hdf5, start_hdf5
-   use camroller_hdf5_object, only : hdf5_object_t, member_name, open_space, open_text_type, raise_object
+   use camroller_hdf5_object, only : hdf5_object_t, member_name, open_space, raise_object
    use camroller_system_file, only : reserve_space, set_file_size, sync_descriptor
    implicit none
    private
@@ -281,16 +281,7 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      integer(hid_t) :: text_type
-      integer :: status, ignored
-
-      call open_text_type(text_type, status)
-      if (status /= 0) then
-         call raise_hdf5(error, "cannot create texts in '"//parent%file//"'")
-         return
-      end if
-      call create_dataset(parent, name, text_type, extents, [integer ::], 0, dataset, error)
-      call h5tclose_f(text_type, ignored)
+      call create_dataset(parent, name, parent%lists%texts, extents, [integer ::], 0, dataset, error)
    end subroutine create_texts
 
    !> Write a single number.
@@ -394,18 +385,10 @@ contains
 
       character(len=:), allocatable, target :: letters
       type(c_ptr), target :: address(1)
-      integer(hid_t) :: text_type
-      integer :: status, ignored
 
       letters = trim(text)//c_null_char
       address(1) = c_loc(letters)
-      call open_text_type(text_type, status)
-      if (status /= 0) then
-         call raise_object(error, dataset)
-         return
-      end if
-      call write_block(dataset, text_type, position, spread(1, 1, size(position)), c_loc(address), error)
-      call h5tclose_f(text_type, ignored)
+      call write_block(dataset, dataset%lists%texts, position, spread(1, 1, size(position)), c_loc(address), error)
    end subroutine write_text
 
    !> Create a dataset of any type.
@@ -426,23 +409,24 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      integer(hid_t) :: shared, creation, space
+      integer(hid_t) :: shared, creation, access, space
       integer :: status, ignored
 
       dataset%name = member_name(parent, name)
       dataset%file = parent%file
       dataset%lists = parent%lists
+      dataset%extents = extents
       shared = merge(parent%lists%numbers, parent%lists%others, value_type == h5t_ieee_f64le)
       creation = shared
+      ! The library copies any list but its own for each dataset
+      access = merge(parent%lists%access, h5p_default_f, size(chunk) > 0)
       status = 0
       if (size(chunk) > 0) call h5pcopy_f(shared, creation, status)
       if (status == 0 .and. size(chunk) > 0) call h5pset_chunk_f(creation, size(chunk), int(chunk, hsize_t), status)
       if (status == 0 .and. compression > 0) call h5pset_shuffle_f(creation, status)
       if (status == 0 .and. compression > 0) call h5pset_deflate_f(creation, compression, status)
       call open_space(extents, space, ignored)
-      if (status == 0) then
-         call h5dcreate_f(parent%id, name, value_type, space, dataset%id, status, creation, dapl_id=parent%lists%access)
-      end if
+      if (status == 0) call h5dcreate_f(parent%id, name, value_type, space, dataset%id, status, creation, dapl_id=access)
       if (status /= 0) call raise_object(error, dataset)
       call h5sclose_f(space, ignored)
       if (size(chunk) > 0) call h5pclose_f(creation, ignored)
@@ -465,7 +449,7 @@ contains
       integer(hid_t) :: file_space, memory_space
       integer :: status, ignored
 
-      if (size(first) == 0) then
+      if (all(extents == dataset%extents)) then
          call h5dwrite_f(dataset%id, memory_type, address, status, h5s_all_f, h5s_all_f, dataset%lists%transfer)
       else
          call h5dget_space_f(dataset%id, file_space, status)

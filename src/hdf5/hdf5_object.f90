@@ -1,17 +1,16 @@
-!> Common parts of all HDF5 objects: handle, names, the type of texts, the error of a failed write.
+!> Common parts of all HDF5 objects: handle, names, the error of a failed write.
 !>
-!> In: extents, texts. Out: `hdf5_object_t` and helpers that the modules for files, attributes and reading share.
+!> In: extents. Out: `hdf5_object_t` and helpers that the modules for files, attributes and reading share.
 module camroller_hdf5_object
    use, intrinsic :: iso_c_binding, only : c_int64_t
-   use hdf5, only : hid_t, hsize_t, h5screate_f, h5screate_simple_f, h5tcopy_f, h5tset_cset_f, h5s_scalar_f, &
-      & h5t_cset_utf8_f, h5t_string
+   use hdf5, only : hid_t, hsize_t, h5screate_f, h5screate_simple_f, h5s_scalar_f
    use camroller_error, only : error_t
    use camroller_hdf5_lists, only : lists_t
    use camroller_hdf5_status, only : raise_hdf5
    implicit none
    private
 
-   public :: hdf5_object_t, open_space, open_text_type, member_name, raise_object
+   public :: hdf5_object_t, open_space, member_name, raise_object
 
    !> A file, a group or a dataset that is open
    type :: hdf5_object_t
@@ -21,8 +20,10 @@ module camroller_hdf5_object
       character(len=:), allocatable :: name
       !> File as messages call it
       character(len=:), allocatable :: file
-      !> Property lists of the file, where it is written
+      !> What the objects of the file share, where it is written
       type(lists_t) :: lists
+      !> Extents of the axes of a dataset that is written
+      integer, allocatable :: extents(:)
       !> Disk space set aside for a file [byte]
       integer(c_int64_t) :: reserved = 0_c_int64_t
       !> Size of a file that is read [byte]
@@ -46,17 +47,6 @@ contains
          call h5screate_simple_f(size(extents), int(extents, hsize_t), space, status)
       end if
    end subroutine open_space
-
-   !> Type of texts of any length in UTF-8.
-   subroutine open_text_type(text_type, status)
-      !> The type, to be closed
-      integer(hid_t), intent(out) :: text_type
-      !> 0 where all went well
-      integer, intent(out) :: status
-
-      call h5tcopy_f(h5t_string, text_type, status)
-      if (status == 0) call h5tset_cset_f(text_type, h5t_cset_utf8_f, status)
-   end subroutine open_text_type
 
    !> Name of a member inside the file.
    pure function member_name(parent, name) result(full)

@@ -16,7 +16,8 @@ module camroller_hdf5_read
    use camroller_error, only : error_t, raise, kind_file
    use camroller_file_facts, only : facts_of_path, file_facts_t, kind_in_words
    use camroller_hdf5_status, only : quiet_hdf5, raise_hdf5, start_hdf5
-   use camroller_hdf5_object, only : hdf5_object_t, open_space, open_text_type
+   use camroller_hdf5_lists, only : open_text_type
+   use camroller_hdf5_object, only : hdf5_object_t, open_space
    use camroller_hdf5_shape, only : check_kind, check_rank, find_shape, of_numbers, of_texts, open_dataset, raise_read, shape_t
    use camroller_library_watch, only : begin_call, end_call
    use camroller_number_text, only : integer_text

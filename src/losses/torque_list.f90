@@ -8,11 +8,12 @@
 !>
 !> A vector of torques holds one value for each row, in this order; last stands the energy residual, in watts.
 module camroller_torque_list
+   use camroller_kinds, only : wp
    use camroller_names, only : name_length
    implicit none
    private
 
-   public :: torque_list, torque_count, is_loss, is_torque, torque_series
+   public :: torque_list, torque_count, is_loss, is_torque, torque_series, sum_of_losses, sum_of_torques
    public :: of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, &
       & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_gas_damping, of_residual
 
@@ -70,5 +71,42 @@ module camroller_torque_list
    !> Which rows are losses, and which are torques
    logical, parameter :: is_loss(torque_count) = torque_list%kind == kind_loss, &
       & is_torque(torque_count) = torque_list%kind /= kind_residual
+
+   integer :: row
+   !> Their places
+   integer, parameter :: losses(*) = pack([(row, row=1, torque_count)], is_loss), &
+      & torques(*) = pack([(row, row=1, torque_count)], is_torque)
+
+contains
+
+   !> Torque for all losses.
+   pure function sum_of_losses(values) result(total)
+      !> Value of each row [N m]
+      real(wp), intent(in) :: values(torque_count)
+      !> The sum [N m]
+      real(wp) :: total
+
+      integer :: i
+
+      total = 0.0_wp
+      do i = 1, size(losses)
+         total = total + values(losses(i))
+      end do
+   end function sum_of_losses
+
+   !> Torque that drives the camshaft.
+   pure function sum_of_torques(values) result(total)
+      !> Value of each row [N m]
+      real(wp), intent(in) :: values(torque_count)
+      !> The sum [N m]
+      real(wp) :: total
+
+      integer :: i
+
+      total = 0.0_wp
+      do i = 1, size(torques)
+         total = total + values(torques(i))
+      end do
+   end function sum_of_torques
 
 end module camroller_torque_list

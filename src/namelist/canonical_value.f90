@@ -5,7 +5,7 @@
 module camroller_canonical_value
    use camroller_kinds, only : wp
    use camroller_deck_values, only : next_word
-   use camroller_number_text, only : is_number, number_text
+   use camroller_number_text, only : append_number, is_number
    use camroller_quotes, only : in_quotes, is_quoted, without_quotes
    use camroller_value_syntax, only : is_yes, is_yes_or_no
    implicit none
@@ -82,7 +82,10 @@ contains
          spelling = in_quotes(without_quotes(word))
       else if (is_number(word)) then
          read (word, *, iostat=status) number
-         if (status == 0) spelling = number_text(number)
+         if (status == 0) then
+            spelling = ""
+            call append_number(spelling, number)
+         end if
       else if (is_yes_or_no(word)) then
          spelling = merge(".true. ", ".false.", is_yes(word))
          spelling = trim(spelling)

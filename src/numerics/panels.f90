@@ -15,7 +15,7 @@ module camroller_panels
    private
 
    public :: sampled_t, panels_t, start_panels, add_panel, add_trapezoid, sample_panel, split_at, refine_panels, &
-      & highest_terms
+      & highest_terms, total_of
 
    !> Places of a panel
    integer, parameter, public :: panel_points = 7
@@ -146,6 +146,21 @@ contains
       if (.not. allocated(error)) call add_panel(panels, left, right, values)
    end subroutine sample_panel
 
+   !> Sum over panels, panel by panel: `sum` would go through all of them for each quantity.
+   pure function total_of(values) result(total)
+      !> What each panel has of the quantities, shape (quantity, panel) [any]
+      real(wp), intent(in), contiguous :: values(:, :)
+      !> The sums [any]
+      real(wp) :: total(size(values, 1))
+
+      integer :: panel
+
+      total = 0.0_wp
+      do panel = 1, size(values, 2)
+         total = total + values(:, panel)
+      end do
+   end function total_of
+
    !> Halve the panel of the largest error estimate until the sums of the estimates are within what is allowed.
    subroutine refine_panels(panels, sampled, allowed, halvings, error)
       !> The panels
@@ -163,9 +178,9 @@ contains
       real(wp) :: sums(size(allowed)), left, right
       integer :: quantity, panel
 
-      sums = sum(panels%errors(:, :panels%count), 2)
+      sums = total_of(panels%errors(:, :panels%count))
       do while (halvings > 0)
-         if (all(sums <= allowed)) sums = sum(panels%errors(:, :panels%count), 2)
+         if (all(sums <= allowed)) sums = total_of(panels%errors(:, :panels%count))
          if (all(sums <= allowed)) return
          quantity = maxloc(sums/allowed, 1)
          panel = maxloc(panels%errors(quantity, :panels%count), 1)

@@ -27,6 +27,8 @@ module camroller_trajectory
       real(wp), allocatable :: rate(:, :)
       !> Curve that ends at each point, shape (component, 6, point): bends b1 to b4, height of the layer [state], its exponent [-]
       real(wp), allocatable :: bends(:, :, :)
+      !> Its exp(z) - 1, which each place on the curve takes, shape (component, point) [-]
+      real(wp), allocatable :: rises(:, :)
       !> Interpolate linearly?
       logical :: is_linear = .false.
    end type trajectory_t
@@ -64,10 +66,11 @@ contains
       trajectory%count = 0
       if (allocated(trajectory%state)) then
          if (size(trajectory%state, 1) == components) return
-         deallocate (trajectory%time, trajectory%state, trajectory%rate, trajectory%bends)
+         deallocate (trajectory%time, trajectory%state, trajectory%rate, trajectory%bends, trajectory%rises)
       end if
       allocate (trajectory%time(first_room), trajectory%state(components, first_room), &
-         & trajectory%rate(components, first_room), trajectory%bends(components, curve_numbers, first_room))
+         & trajectory%rate(components, first_room), trajectory%bends(components, curve_numbers, first_room), &
+         & trajectory%rises(components, first_room))
    end subroutine start_trajectory
 
    !> Empty a trajectory; of its memory no more is kept than what a new one has.
@@ -77,7 +80,8 @@ contains
 
       trajectory%count = 0
       if (.not. allocated(trajectory%time)) return
-      if (size(trajectory%time) > first_room) deallocate (trajectory%time, trajectory%state, trajectory%rate, trajectory%bends)
+      if (size(trajectory%time) > first_room) deallocate (trajectory%time, trajectory%state, trajectory%rate, trajectory%bends, &
+         & trajectory%rises)
    end subroutine release_room
 
    !> Append a point, reached by the cubic Hermite curve on the rates at both ends, or linearly.
@@ -122,6 +126,9 @@ contains
 
       call append_straight(trajectory, time, state, rate)
       trajectory%bends(:, :size(bends, 2), trajectory%count) = bends
+      if (size(bends, 2) == curve_numbers) then
+         where (abs(bends(:, 5)) > 0.0_wp) trajectory%rises(:, trajectory%count) = exp(bends(:, 6)) - 1.0_wp
+      end if
    end subroutine append_curve
 
    !> Append a point, reached by a straight line: also the start of a segment, behind a stop, since over the gap of a few roundings
@@ -138,6 +145,7 @@ contains
       trajectory%state(:, trajectory%count) = state
       trajectory%rate(:, trajectory%count) = rate
       trajectory%bends(:, :, trajectory%count) = 0.0_wp
+      trajectory%rises(:, trajectory%count) = 0.0_wp
    end subroutine append_straight
 
    !> Append another trajectory up to a time; the curve that holds the time is cut there.
@@ -180,21 +188,23 @@ contains
    pure subroutine grow(trajectory)
       type(trajectory_t), intent(inout) :: trajectory
 
-      ! Larger copies [time], [state], [state/time], [state]
-      real(wp), allocatable :: time(:), state(:, :), rate(:, :), bends(:, :, :)
+      ! Larger copies [time], [state], [state/time], [state], [-]
+      real(wp), allocatable :: time(:), state(:, :), rate(:, :), bends(:, :, :), rises(:, :)
       integer :: n
 
       n = trajectory%count
       allocate (time(2*n), state(size(trajectory%state, 1), 2*n), rate(size(trajectory%state, 1), 2*n), &
-         & bends(size(trajectory%state, 1), curve_numbers, 2*n))
+         & bends(size(trajectory%state, 1), curve_numbers, 2*n), rises(size(trajectory%state, 1), 2*n))
       time(:n) = trajectory%time
       state(:, :n) = trajectory%state
       rate(:, :n) = trajectory%rate
       bends(:, :, :n) = trajectory%bends
+      rises(:, :n) = trajectory%rises
       call move_alloc(time, trajectory%time)
       call move_alloc(state, trajectory%state)
       call move_alloc(rate, trajectory%rate)
       call move_alloc(bends, trajectory%bends)
+      call move_alloc(rises, trajectory%rises)
    end subroutine grow
 
    !> State at a time inside the trajectory; the search starts from a hint, so that rising times cost nothing.
@@ -219,32 +229,39 @@ contains
       end if
       place = (time - trajectory%time(hint))/length
       associate (left => trajectory%state(:, hint), right => trajectory%state(:, hint + 1), &
-         & bends => trajectory%bends(:, :, hint + 1))
-         state = curve_state(left, right, bends, place)
+         & bends => trajectory%bends(:, :, hint + 1), rises => trajectory%rises(:, hint + 1))
+         state = curve_state(left, right, bends, place, rises)
       end associate
    end subroutine interpolate_state
 
    !> State at a place of a curve.
-   pure function curve_state(left, right, bends, place) result(state)
+   pure function curve_state(left, right, bends, place, rises) result(state)
       !> State at both ends [state]
       real(wp), intent(in) :: left(:), right(:)
       !> Bends, height and exponent of the layer, shape (component, 6) [state] and [-]
       real(wp), intent(in) :: bends(:, :)
       !> Place, from zero to one [-]
       real(wp), intent(in) :: place
+      !> exp(z) - 1 of each component, where it is known [-]
+      real(wp), intent(in), optional :: rises(:)
       !> State there [state]
       real(wp) :: state(size(left))
 
-      ! Place on the layer, which must not be continued beyond its ends [-]
-      real(wp) :: inside
+      ! Place on the layer, which must not be continued beyond its ends; exp(z) - 1 [-]
+      real(wp) :: inside, rise
       integer :: i
 
       inside = min(max(place, 0.0_wp), 1.0_wp)
       do i = 1, size(left)
          state(i) = left(i) + place*(right(i) - left(i)) + place*(1.0_wp - place)*(bends(i, 1) + place*(bends(i, 2) &
             & + place*(bends(i, 3) + place*bends(i, 4))))
-         if (abs(bends(i, 5)) > 0.0_wp) state(i) = state(i) + bends(i, 5)*(exp(bends(i, 6)*inside) - 1.0_wp &
-            & - inside*(exp(bends(i, 6)) - 1.0_wp))
+         if (.not. abs(bends(i, 5)) > 0.0_wp) cycle
+         if (present(rises)) then
+            rise = rises(i)
+         else
+            rise = exp(bends(i, 6)) - 1.0_wp
+         end if
+         state(i) = state(i) + bends(i, 5)*(exp(bends(i, 6)*inside) - 1.0_wp - inside*rise)
       end do
    end function curve_state
 
@@ -288,7 +305,8 @@ contains
             & height => trajectory%bends(i, 5, step + 1), exponent => trajectory%bends(i, 6, step + 1))
             slope(i) = change + (1.0_wp - 2.0_wp*place)*(b1 + place*(b2 + place*(b3 + place*b4))) &
                & + place*(1.0_wp - place)*(b2 + place*(2.0_wp*b3 + place*3.0_wp*b4))
-            if (abs(height) > 0.0_wp) slope(i) = slope(i) + height*(exponent*exp(exponent*place) - (exp(exponent) - 1.0_wp))
+            if (abs(height) > 0.0_wp) slope(i) = slope(i) + height*(exponent*exp(exponent*place) &
+               & - trajectory%rises(i, step + 1))
          end associate
          slope(i) = slope(i)/length
       end do

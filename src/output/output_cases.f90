@@ -74,10 +74,16 @@ contains
       if (.not. allocated(writer%summary)) return
       call start_row(writer, position, error)
       if (allocated(error)) return
-      if (size(writer%rows) > 0) writer%rows(:, writer%gathered, :) = not_a_number()
-      if (size(writer%rows) > 0 .and. size(series) > 0) writer%rows(:, writer%gathered, :) = series
-      writer%scalars(writer%gathered, :) = not_a_number()
-      if (status == 0) writer%scalars(writer%gathered, :) = summary
+      if (size(writer%rows) > 0 .and. size(series) > 0) then
+         writer%rows(:, writer%gathered, :) = series
+      else if (size(writer%rows) > 0) then
+         writer%rows(:, writer%gathered, :) = not_a_number()
+      end if
+      if (status == 0) then
+         writer%scalars(writer%gathered, :) = summary
+      else
+         writer%scalars(writer%gathered, :) = not_a_number()
+      end if
       call end_row(writer, position, error)
    end subroutine gather_row
 
@@ -258,8 +264,8 @@ contains
       integer :: n
 
       if (allocated(writer%rows)) deallocate (writer%rows, writer%scalars)
-      allocate (writer%rows(angles, merge(0, writer%block, writer%is_sparse), size(writer%series)), source=0.0_wp)
-      allocate (writer%scalars(writer%block, size(writer%summary)), source=0.0_wp)
+      allocate (writer%rows(angles, merge(0, writer%block, writer%is_sparse), size(writer%series)), &
+         & writer%scalars(writer%block, size(writer%summary)))
       n = size(writer%series_data)
       allocate (longer(size(writer%series)))
       longer(:n) = writer%series_data
@@ -310,10 +316,10 @@ contains
          associate (series => writer%series(i), dataset => writer%series_data(i))
             call create_numbers(writer%series_group, series%name, [angles, cases], chunk(:axes_in_chunk), level, &
                & dataset, error)
-            if (.not. allocated(error)) call describe(dataset, series%unit, series%description, &
-               & series%source, error, series%scope)
             if (.not. allocated(error)) call attach_scale(dataset, writer%angle_axis, 1, 2, error)
             if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 2, 2, error)
+            if (.not. allocated(error)) call describe(dataset, series%unit, series%description, &
+               & series%source, error, series%scope)
          end associate
          if (allocated(error)) return
       end do
@@ -342,9 +348,9 @@ contains
             call choose_group(writer, scalar%source, group, error)
             if (.not. allocated(error)) call create_numbers(group, scalar%name, shape(writer%status), &
                & chunk(:axes_in_chunk), level, dataset, error)
+            if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
             if (.not. allocated(error)) call describe(dataset, scalar%unit, scalar%description, &
                & scalar%source, error, scalar%scope)
-            if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
          end associate
          if (allocated(error)) return
       end do

@@ -311,7 +311,7 @@ contains
 
       angles = size(result%series_values, 1)
       if (angles == 0) return
-      result%series_values = 0.0_wp
+      if (.not. with_followers) result%series_values = 0.0_wp
       allocate (turns(0))
       do k = 1, merge(size(solved%models), 0, with_followers)
          turns = [turns, lobe_turn_t(lobe=k)]

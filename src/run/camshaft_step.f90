@@ -15,7 +15,7 @@ module camroller_camshaft_step
    use camroller_follower_step, only : place_t, outcome_t, piece_number
    use camroller_shaft, only : shaft_t, bearing_number, set_drag, set_journal, in_common_frame, bearing_torques
    use camroller_step_inputs, only : inputs_t, inputs_between, part_number
-   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings, of_shaft_drag
+   use camroller_torque_list, only : torque_count, sum_of_losses, sum_of_torques, of_bearings, of_shaft_drag
    implicit none
    private
 
@@ -148,10 +148,10 @@ contains
       outcome%torques = sum(outcome%by_camshaft, 2)
       outcome%mean_torques([of_bearings, of_shaft_drag]) = mean
       outcome%estimated_error = outcome%estimated_error + sum(errors)
-      outcome%mean_torque_friction = sum(outcome%mean_torques, mask=is_loss)
-      outcome%mean_torque_drive = sum(outcome%mean_torques, mask=is_torque)
-      outcome%torque_friction = sum(outcome%torques, mask=is_loss)
-      outcome%torque_drive = sum(outcome%torques, mask=is_torque)
+      outcome%mean_torque_friction = sum_of_losses(outcome%mean_torques)
+      outcome%mean_torque_drive = sum_of_torques(outcome%mean_torques)
+      outcome%torque_friction = sum_of_losses(outcome%torques)
+      outcome%torque_drive = sum_of_torques(outcome%torques)
       ! At the end the same sum in another order
       outcome%extreme_torque = [min(outcome%extreme_torque(1), outcome%torque_drive), &
          & max(outcome%extreme_torque(2), outcome%torque_drive)]

@@ -17,7 +17,8 @@ module camroller_catalogue
    use camroller_part_series, only : add_asperities, add_axial, add_axial_film, add_bearings, add_heat, add_pin, &
       & add_surfaces, bearing_count, least_force, least_share
    use camroller_state, only : state_t, flexible_values_t
-   use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
+   use camroller_torque_list, only : torque_list, torque_count, is_torque, of_residual, sum_of_losses, &
+      & sum_of_torques, torque_series
    use camroller_hertz, only : peak_pressure
    use camroller_joint_forces, only : joint_values_t
    use camroller_traction, only : rolling_law_names, rolling_none
@@ -366,9 +367,9 @@ contains
       call add_camshaft(list, has, all_of)
       do k = 1, merge(0, size(torques, 2), size(torques, 2) == 1)
          call append_numbered(list, camshaft_prefix, k, "_torque_friction", "N m", "torque for all losses of camshaft", "torque", &
-            & sum(torques(:, k), mask=is_loss))
+            & sum_of_losses(torques(:, k)))
          call append_numbered(list, camshaft_prefix, k, "_torque_drive", "N m", "torque that drives camshaft", "torque", &
-            & sum(torques(:, k), mask=is_torque))
+            & sum_of_torques(torques(:, k)))
       end do
       if (bearing_count(case) > 0) call add_bearings(list, case, bearings)
    end subroutine add_camshafts
@@ -406,8 +407,8 @@ contains
          if (is_torque(row) .and. has(row)) call add(list, torque_series(row), "N m", torque_list(row)%meaning, &
             & torque_list(row)%source, torques(row))
       end do
-      call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum(torques, mask=is_loss))
-      call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum(torques, mask=is_torque))
+      call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum_of_losses(torques))
+      call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum_of_torques(torques))
       if (has(of_residual)) call add(list, torque_series(of_residual), "W", &
          & torque_list(of_residual)%meaning, torque_list(of_residual)%source, torques(of_residual))
    end subroutine add_camshaft

@@ -17,7 +17,7 @@ module camroller_camshaft_statistics
    use camroller_flexible_solution, only : error_share
    use camroller_lobe_curve, only : cam_values, contact_near, curve_points, curve_values, telling_points
    use camroller_means, only : mean_tolerance, most_halvings, statistics_t
-   use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
+   use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels, total_of
    use camroller_part_series, only : bearing_count, bearing_series_count, load_part
    use camroller_result, only : quantity_t, find_quantity, series_name_length
    use camroller_shaft, only : bearing_number, shaft_stops, solved_t, shaft_torques, valves_rest
@@ -130,20 +130,20 @@ contains
       call move_samples(samples%films, films)
       samples%keeps_rows = .false.
       halvings = most_halvings
-      allowed = max(quadrature_part*mean_tolerance(maxval(solved%cycles%tolerance))*sum(panels%sizes(:, :panels%count), 2), &
+      allowed = max(quadrature_part*mean_tolerance(maxval(solved%cycles%tolerance))*total_of(panels%sizes(:, :panels%count)), &
          & tiny(1.0_wp))
       ! First for the torque alone, which is the same whether or not single bearings have series
       call refine_panels(panels, samples, [allowed(:size(mean)), spread(huge(1.0_wp), 1, size(single))], halvings, error)
       if (allocated(error)) return
       mean = sum(panels%integrals(:size(mean), :panels%count), 2)/two_pi
-      errors = sum(panels%errors(:, :panels%count), 2)/max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp))
+      errors = total_of(panels%errors(:, :panels%count))/max(total_of(panels%sizes(:, :panels%count)), tiny(1.0_wp))
       mean_error = maxval(errors(:size(mean)))
       worst = torque_series(of_bearings)
       if (size(single) == 0) return
       call refine_panels(panels, samples, allowed, halvings, error)
       if (allocated(error)) return
       single = sum(panels%integrals(size(mean) + 1:, :panels%count), 2)/two_pi
-      errors = sum(panels%errors(:, :panels%count), 2)/max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp))
+      errors = total_of(panels%errors(:, :panels%count))/max(total_of(panels%sizes(:, :panels%count)), tiny(1.0_wp))
       if (maxval(errors(size(mean) + 1:)) <= mean_error) return
       columns = camshaft_columns(solved%case)
       place = maxloc(errors(size(mean) + 1:), 1)

@@ -22,7 +22,8 @@ module camroller_means
    use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t
    use camroller_slip_errors, only : slip_errors_t, find_slip_errors
    use camroller_lobe_curve, only : lobe_curve_t, move_curve
-   use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, refine_panels
+   use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, &
+      & refine_panels, total_of
    use camroller_result, only : quantity_t, find_quantity, series_name_length
    use camroller_standstills, only : add_rolling_points, add_standstills, add_surfaces_at_rest, split_at_changes
    use camroller_stored_work, only : stored_work_t, follow_contact, end_work, lost_angle, spin_work, split_at_losses
@@ -160,7 +161,7 @@ contains
       halvings = most_halvings
       do pass = 1, most_passes
          allowed = tolerance*mean_sizes(panels, least, films)
-         if (all(sum(panels%errors(:, :panels%count), 2) <= allowed)) return
+         if (all(total_of(panels%errors(:, :panels%count)) <= allowed)) return
          call refine_panels(panels, samples, allowed, halvings, error)
          if (allocated(error) .or. halvings == 0) return
       end do
@@ -189,7 +190,7 @@ contains
       !> Sizes, positive [unit of each times rad]
       real(wp) :: sizes(size(least) + torque_count)
 
-      sizes = max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)/least_tolerance)
+      sizes = max(total_of(panels%sizes(:, :panels%count)), tiny(1.0_wp)/least_tolerance)
       sizes(:size(least)) = max(sizes(:size(least)), least)
       associate (torques => sizes(size(least) + 1:))
          torques(of_geometric) = sum(torques, mask=is_loss)
@@ -212,7 +213,7 @@ contains
       ! Means [unit of each]; series of the last state with the mean torques
       real(wp) :: means(samples%series + torque_count), series(samples%series)
 
-      means = sum(panels%integrals(:, :panels%count), 2)/span
+      means = total_of(panels%integrals(:, :panels%count))/span
       statistics%torques = means(samples%series + 1:) + stored_torques(samples, work, span)
       call series_values(samples%case, samples%model, samples%state, statistics%torques, series)
       statistics%mean = [means(:samples%first_torque - 1), series(samples%first_torque:)]
@@ -251,7 +252,7 @@ contains
       real(wp) :: errors(size(panels%integrals, 1)), relative(size(panels%integrals, 1))
       integer :: worst
 
-      errors = sum(panels%errors(:, :panels%count), 2) + slip_errors
+      errors = total_of(panels%errors(:, :panels%count)) + slip_errors
       associate (torques => errors(size(series) + 1:))
          ! The drive torque has the errors of all losses, and the difference in spin between start and end
          torques(of_geometric) = torques(of_geometric) + sum(torques, mask=is_loss) &
@@ -300,9 +301,9 @@ contains
          & [real(wp) ::], [1, 0], error)
       if (allocated(error)) return
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
-      torques = sum(panels%integrals(:, :panels%count), 2)/span + stored_torques(samples, work, span)
+      torques = total_of(panels%integrals(:, :panels%count))/span + stored_torques(samples, work, span)
       if (present(extremes)) extremes = samples%extremes
-      if (present(drive_error)) drive_error = sum(sum(panels%errors(:, :panels%count), 2), mask=is_torque)/span
+      if (present(drive_error)) drive_error = sum(total_of(panels%errors(:, :panels%count)), mask=is_torque)/span
    end subroutine integrate_torques
 
    !> Sample a cycle or a piece of one for its torques alone, two intervals a panel where no stop parts them.

@@ -16,7 +16,7 @@ module camroller_kinematics
    private
 
    public :: mechanism_t, linkage_t, position_t, rotation_names
-   public :: new_linkage, evaluate_position
+   public :: new_linkage, evaluate_position, arm_angle_at
 
    !> Senses of rotation that can be chosen by name: how the cam surface moves at the contact
    character(len=*), parameter :: rotation_names(*) = [character(len=name_length) :: &
@@ -188,7 +188,7 @@ contains
    !> `V_roll = omega (M - r_R)`: `doc/theory.md`.
    !> Note: written in curvatures, so that straight and hollow flanks are regular.
    !> The caller has checked that the lift keeps `|cos(gamma + chi)| < 1`; status is not 0 where it does not.
-   pure subroutine evaluate_position(linkage, lift, position, status, path_only, without_slopes)
+   pure subroutine evaluate_position(linkage, lift, position, status, path_only, moments_only)
       !> Constants of the mechanism
       type(linkage_t), intent(in) :: linkage
       !> Lift and its first three derivatives with respect to the cam angle [m, m/rad, m/rad^2, m/rad^3]
@@ -199,8 +199,8 @@ contains
       integer, intent(out) :: status
       !> Are path of the roller's centre over the cam, its curvature, its arms and the slope of the finger all that is wanted?
       logical, intent(in), optional :: path_only
-      !> Is all wanted but the slopes of arms, travels and radius, and the third derivatives of lift and finger?
-      logical, intent(in), optional :: without_slopes
+      !> Is only wanted what moments about the pivot take: lift and turn of the finger with two derivatives, arms about the pivot?
+      logical, intent(in), optional :: moments_only
 
       ! cos and sin of gamma + chi; cos and sin of s [-]
       real(wp) :: cos_pad, sin_pad, cos_s, sin_s
@@ -228,28 +228,28 @@ contains
       ad_cos = linkage%a*linkage%d*cos_s
       ad_sin = linkage%a*linkage%d*sin_s
       m = sqrt((linkage%a*g)**2 - 2.0_wp*ad_cos*g + linkage%d**2)
-      l2 = linkage%a**2*g**3 - ad_sin*gamma_2 + linkage%d**2 - ad_cos*g*(1.0_wp + g)
+      position%lift_slope = lift(1)
+      position%lift_curvature = lift(2)
       position%finger_slope = gamma_1
-      position%pitch_curvature = l2/m**3
+      position%finger_curvature = gamma_2
       position%normal_arm = ad_sin/m
       position%tangent_arm = (ad_cos - linkage%a**2*g)/m
+      position%parallel_arm = linkage%a*(sin_s*linkage%axis_cosine + cos_s*linkage%axis_sine)
+      if (present(moments_only)) then
+         if (moments_only) return
+      end if
+      l2 = linkage%a**2*g**3 - ad_sin*gamma_2 + linkage%d**2 - ad_cos*g*(1.0_wp + g)
+      position%pitch_curvature = l2/m**3
       ! omega h_F - sense gamma' omega h_t, with the arms written out, is omega (M - r_R)
       position%rolling_travel = m - linkage%roller_radius
       if (present(path_only)) then
          if (path_only) return
       end if
 
-      position%lift_slope = lift(1)
-      position%lift_curvature = lift(2)
-      position%arm_angle = acos(cos_pad) + linkage%arm_offset
-      position%finger_curvature = gamma_2
+      position%arm_angle = arm_angle_at(linkage, lift(0))
       position%equivalent_radius = linkage%roller_radius*(1.0_wp - linkage%roller_radius*position%pitch_curvature)
       position%surface_travel = m - linkage%roller_radius*l2/m**2
-      position%parallel_arm = linkage%a*(sin_s*linkage%axis_cosine + cos_s*linkage%axis_sine)
       position%cam_arm = (linkage%d**2 + linkage%a**2*g - ad_cos*(1.0_wp + g))/m - linkage%roller_radius
-      if (present(without_slopes)) then
-         if (without_slopes) return
-      end if
       call add_slopes(position)
 
    contains
@@ -281,5 +281,17 @@ contains
       end subroutine add_slopes
 
    end subroutine evaluate_position
+
+   !> Angle s between roller arm and line of centres, for a lift that the finger can reach.
+   elemental function arm_angle_at(linkage, lift) result(angle)
+      !> Constants of the mechanism
+      type(linkage_t), intent(in) :: linkage
+      !> The lift [m]
+      real(wp), intent(in) :: lift
+      !> The angle [rad]
+      real(wp) :: angle
+
+      angle = acos(linkage%base_cosine - lift/linkage%b) + linkage%arm_offset
+   end function arm_angle_at
 
 end module camroller_kinematics
