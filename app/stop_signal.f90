@@ -8,7 +8,6 @@
 !> libraries start threads of their own, to which the system then hands them.
 module camroller_stop_signal
    use, intrinsic :: iso_c_binding, only : c_funloc, c_funptr, c_int, c_intptr_t
-   use camroller_c_library, only : c_signal_default => c_signal
    use camroller_error, only : kind_file
    use camroller_library_watch, only : is_in_call, tell_call, watch_library
    use camroller_unfinished, only : remove_remembered
@@ -37,6 +36,13 @@ module camroller_stop_signal
          type(c_funptr), value :: handler
          integer(c_intptr_t) :: former
       end function c_signal
+
+      function c_signal_default(number, handler) bind(C, name="signal") result(former)
+         import :: c_int, c_intptr_t
+         integer(c_int), value :: number
+         integer(c_intptr_t), value :: handler
+         integer(c_intptr_t) :: former
+      end function c_signal_default
 
       function c_pthread_self() bind(C, name="pthread_self") result(thread)
          import :: c_intptr_t

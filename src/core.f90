@@ -39,6 +39,7 @@ module camroller_core ! style: private because it gives on all that it uses
    use camroller_spring_modes, only : spring_surge_t
    use camroller_lash_adjuster, only : lash_adjuster_t
    use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case
+   use camroller_deck_keys, only : check_case
    use camroller_deck_remarks, only : list_deck_remarks
    use camroller_text_lines, only : line_t
    use camroller_run, only : run_case

@@ -123,6 +123,7 @@ program main
    use test_step_remarks, only : collect_step_remarks
    use test_train_step_remarks, only : collect_train_step_remarks
    use test_shaft_simulation, only : collect_shaft_simulation
+   use test_hand_made, only : collect_hand_made
    use test_shaft_faults, only : collect_shaft_faults
    use test_simulation_inputs, only : collect_simulation_inputs
    use test_quasi_static, only : collect_quasi_static
@@ -326,6 +327,7 @@ contains
          new_testsuite("shaft_simulation", collect_shaft_simulation), &
          new_testsuite("step_remarks", collect_step_remarks), &
          new_testsuite("train_step_remarks", collect_train_step_remarks), &
+         new_testsuite("hand_made", collect_hand_made), &
          new_testsuite("shaft_faults", collect_shaft_faults), &
          new_testsuite("simulation", collect_simulation), &
          new_testsuite("saved_simulation", collect_saved_simulation), &

@@ -74,9 +74,8 @@ module camroller_units
       unit_t("kJ_mol", "kJ/mol", 1.0e3_wp, 1.0_wp, 0.0_wp), &
       unit_t("J_kg_K", "J/(kg K)", 1.0_wp, 1.0_wp, 0.0_wp)]
 
-   integer :: each
    !> Lengths of the suffixes
-   integer, parameter :: suffix_lengths(*) = [(len_trim(known_units(each)%suffix), each=1, size(known_units))]
+   integer, parameter :: suffix_lengths(*) = len_trim(known_units%suffix)
 
 contains
 

@@ -7,7 +7,6 @@
 module camroller_shaft
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_domain
-   use camroller_cam_lists, only : check_cam_lists
    use camroller_case, only : camshaft_number, case_t
    use camroller_case_torques, only : torque_rows
    use camroller_model, only : model_t
@@ -112,8 +111,6 @@ contains
          shaft%has_torque = torque_rows(case)
          return
       end if
-      call check_cam_lists(case%cam_bearings, allocated(case%second_lift), error)
-      if (allocated(error)) return
       cams = size(case%cam_bearings%cam_positions)
       shaft%phases = case%cam_bearings%cam_phases
       shaft%lobes = case%cam_bearings%cam_lobes

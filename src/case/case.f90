@@ -1,7 +1,8 @@
 !> A case: everything that defines one run, as plain validated numbers in SI units.
 !>
 !> In: component types of the sub-models. Out: `case_t`. An optional effect is an allocatable component:
-!> allocated means that it is part of the case. Whoever fills a case by hand gets it checked by `new_model`.
+!> allocated means that it is part of the case. `new_model` checks the laws of a case that was made by
+!> hand and what ties its components to each other, `check_case` each number against the range that decks allow.
 module camroller_case
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, kind_deck

@@ -11,6 +11,7 @@ module camroller_model
    use camroller_axial_table, only : axial_part_t
    use camroller_accuracy, only : check_numerics, is_within, above_zero
    use camroller_cam_surface, only : cam_surface_t
+   use camroller_cam_lists, only : check_cam_lists
    use camroller_case, only : case_t, check_bookkeeping, contact_policy_names, energy_names, gas_force_of
    use camroller_lift, only : lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
@@ -307,6 +308,8 @@ contains
       integer :: choice
 
       call check_numerics(case%numerics, error)
+      if (allocated(case%cam_bearings) .and. .not. allocated(error)) call check_cam_lists(case%cam_bearings, &
+         & allocated(case%second_lift), error)
       if (allocated(error)) return
       call find_name("energy bookkeeping", case%energy, energy_names, choice, error)
       if (allocated(error)) return

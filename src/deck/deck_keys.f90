@@ -4,6 +4,7 @@
 !> whose value is not in SI has its unit as its last word. Defaults are those of the types, so that a library user and a deck get
 !> the same.
 module camroller_deck_keys
+   use camroller_error, only : error_t, kind_deck, raise
    use camroller_kinds, only : wp, pi, degree
    use camroller_units, only : length_unit_names, pressure_unit_names
    use camroller_accuracy, only : largest_accuracy, largest_periodicity, largest_step
@@ -29,14 +30,14 @@ module camroller_deck_keys
    use camroller_deck_mechanism, only : bind_mechanism, bind_roller
    use camroller_deck_joints, only : bind_joints
    use camroller_output_options, only : output_options_t, compression_names
-   use camroller_deck_binder, only : declared_in, keys_t, taken_from
+   use camroller_deck_binder, only : declared_in, judged_in, keys_t, taken_from
    use camroller_settings, only : settings_t
    use camroller_deck_schema, only : schema_t, group_effect, group_required, group_standard, anything, positive, not_negative, &
       & proper_fraction, up_to, from_to, one_or_more, range_t, above_absolute_zero
    implicit none
    private
 
-   public :: new_schema, bind_case, take_output_options
+   public :: new_schema, bind_case, check_case, take_output_options
 
 contains
 
@@ -55,7 +56,27 @@ contains
       schema%keys = schema%keys(:schema%key_count)
    end subroutine new_schema
 
-   !> All groups but &sweep, in the order of a deck: declared with the defaults of a case, or taken for it.
+   !> Check a case that was made of components: each number against the range that a deck's key has for it. What ties keys to each
+   !> other is checked by runs and simulations.
+   subroutine check_case(case, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Deck error with a line for each number that is outside of its range
+      type(error_t), allocatable, intent(out) :: error
+
+      type(schema_t), target :: schema
+      type(keys_t) :: keys
+      type(case_t) :: copy
+      character(len=:), allocatable :: faults
+
+      copy = case
+      keys = judged_in(schema)
+      call bind_case(keys, copy)
+      call keys%found_faults(faults)
+      if (faults /= "") call raise(error, kind_deck, faults)
+   end subroutine check_case
+
+   !> All groups but &sweep, in the order of a deck: declared with the defaults of a case, taken for it, or judged.
    subroutine bind_case(keys, case)
       !> The keys
       type(keys_t), intent(inout) :: keys
@@ -70,8 +91,8 @@ contains
       call keys%group("lift", group_required, "valve lift as a function of the cam angle")
       call bind_lift(keys, case%lift)
       call keys%group("second_lift", group_effect, "lift of the camshaft's second lobe shape, for cams with lobe 2")
-      if (keys%are_wanted()) then
-         allocate (case%second_lift)
+      if (keys%are_wanted(allocated(case%second_lift))) then
+         if (.not. allocated(case%second_lift)) allocate (case%second_lift)
          call bind_lift(keys, case%second_lift)
       end if
       call bind_loads(keys, case)
@@ -197,12 +218,14 @@ contains
       real(wp) :: nose, diameter, second_diameter
 
       call keys%group("gas_force", group_effect, "cylinder pressure on the valve")
-      if (.not. keys%are_wanted()) return
-      allocate (case%gas_force)
+      if (.not. keys%are_wanted(allocated(case%gas_force))) return
+      if (.not. allocated(case%gas_force)) allocate (case%gas_force)
       ! The table is read by other means, with the keys that say what it holds
       nose = pi
-      diameter = 0.0_wp
+      diameter = sqrt(4.0_wp/pi*max(case%gas_force%valve_area, 0.0_wp))
       second_diameter = 0.0_wp
+      if (allocated(case%gas_force%second_valve_area)) second_diameter = sqrt(4.0_wp/pi* &
+         & max(case%gas_force%second_valve_area, 0.0_wp))
       call keys%text("table", "file with two columns, cam angle in degrees and gauge pressure that presses the valve shut, "// &
          & "over one turn of the camshaft; its path starts at the deck's folder", example="tables/cylinder_pressure.txt")
       call keys%choice("pressure_unit", pressure_unit_names, "unit of the pressure in the table")
@@ -293,8 +316,8 @@ contains
       call keys%choice("range_policy", range_policy_names, "what to do where a law is used outside its published range", &
          & case%film%range_policy)
       call keys%group("ehl", group_effect, "film by numerical solution of the contact, in place of the film law")
-      if (keys%are_wanted()) then
-         allocate (case%ehl)
+      if (keys%are_wanted(allocated(case%ehl))) then
+         if (.not. allocated(case%ehl)) allocate (case%ehl)
          call keys%number("accuracy", proper_fraction, "largest relative error of the film; with 'camroller ehl' the largest "// &
             & "difference of films and mean slip between the last two grids", case%ehl%accuracy)
          call keys%yes_or_no("compressible", "does the density of the oil grow with the pressure?", case%ehl%compressible)

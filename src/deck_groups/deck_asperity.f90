@@ -28,8 +28,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group("asperity", group_effect, "asperities that share the load, and boundary friction")
-      if (.not. keys%are_wanted()) return
-      allocate (case%asperity)
+      if (.not. keys%are_wanted(allocated(case%asperity))) return
+      if (.not. allocated(case%asperity)) allocate (case%asperity)
       associate (asperity => case%asperity)
          call keys%choice("law", asperity_law_names, "elastic asperities of both surfaces, asperities of one that yield, which "// &
             & "need materials.hardness_GPa, or the regression that goes with film law 'masjedi_khonsari_rough'", asperity%law)
@@ -60,8 +60,8 @@ contains
 
       call keys%group("friction_modifier", group_effect, "additive that covers the asperities of cam and roller and lowers "// &
          & "their friction")
-      if (.not. keys%are_wanted()) return
-      allocate (case%friction_modifier)
+      if (.not. keys%are_wanted(allocated(case%friction_modifier))) return
+      if (.not. allocated(case%friction_modifier)) allocate (case%friction_modifier)
       associate (modifier => case%friction_modifier)
          call keys%number("coefficient", not_negative, "friction coefficient of touching asperities that it covers", &
             & modifier%coefficient, example="0.06", usual=[0.02_wp, 0.2_wp])

@@ -28,8 +28,8 @@ contains
 
       call keys%group(group, group_effect, "friction coefficient of touching asperities over sliding speed and "// &
          & "temperature, in place of a constant one")
-      if (.not. keys%are_wanted()) return
-      allocate (case%boundary_law)
+      if (.not. keys%are_wanted(allocated(case%boundary_law))) return
+      if (.not. allocated(case%boundary_law)) allocate (case%boundary_law)
       associate (law => case%boundary_law)
          call keys%choice("law", boundary_law_names, "logarithm of the speed and straight line of the temperature, or a table "// &
             & "over both", law%law)

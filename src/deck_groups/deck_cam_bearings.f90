@@ -40,8 +40,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group(bearings, group_effect, "camshaft, its bearings and its cams")
-      if (.not. keys%are_wanted()) return
-      allocate (case%cam_bearings)
+      if (.not. keys%are_wanted(allocated(case%cam_bearings))) return
+      if (.not. allocated(case%cam_bearings)) allocate (case%cam_bearings)
       associate (shaft => case%cam_bearings)
          call keys%choice("law", journal_law_names, "journal bearing law, by width over diameter: 'finite' from 0.1 to 1, as "// &
             & "most camshafts have it; 'short_ocvirk' up to 0.5; 'long_full_sommerfeld' from 2 on", shaft%law)
@@ -79,8 +79,8 @@ contains
 
       call keys%group(mixed, group_effect, "asperities that share the load of the camshaft bearings where their "// &
          & "film is thin")
-      if (keys%are_wanted()) then
-         allocate (case%bearing_asperity)
+      if (keys%are_wanted(allocated(case%bearing_asperity))) then
+         if (.not. allocated(case%bearing_asperity)) allocate (case%bearing_asperity)
          call keys%number("roughness_um", positive, "root mean square roughness of journal and bearing together", &
             & case%bearing_asperity%roughness, example="0.4", usual=[0.05_wp, 5.0_wp])
          call keys%number("modulus_GPa", positive, "E' of journal and bearing, 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2]", &
@@ -93,8 +93,8 @@ contains
             & case%bearing_asperity%roughness_over_tip_radius, usual=[1.0e-5_wp, 0.1_wp])
       end if
       call keys%group(pull, group_effect, "constant force of the belt or chain that drives each camshaft")
-      if (keys%are_wanted()) then
-         allocate (case%belt_pull)
+      if (keys%are_wanted(allocated(case%belt_pull))) then
+         if (.not. allocated(case%belt_pull)) allocate (case%belt_pull)
          call keys%number("force_N", not_negative, "the force", case%belt_pull%force, example="400", usual=[0.0_wp, 5000.0_wp])
          call keys%number("angle_deg", from_to(-360.0_wp, 360.0_wp), "its direction, from the line from the first follower's "// &
             & "pivot to the cam's centre, positive the way a finger turns as it opens its valve", case%belt_pull%angle, &
@@ -104,8 +104,8 @@ contains
       end if
       call keys%group(warm, group_effect, "heat balance of each camshaft bearing: viscosity at the mean temperature "// &
          & "of its oil")
-      if (keys%are_wanted()) then
-         allocate (case%bearing_heat)
+      if (keys%are_wanted(allocated(case%bearing_heat))) then
+         if (.not. allocated(case%bearing_heat)) allocate (case%bearing_heat)
          call keys%number("heat_capacity_J_kg_K", positive, "heat capacity of the oil", case%bearing_heat%heat_capacity, &
             & usual=[1500.0_wp, 2700.0_wp])
          call keys%number("oil_share", from_to(0.0_wp, 1.0_wp), "part of the friction's heat that the oil carries away; the "// &
@@ -113,8 +113,8 @@ contains
       end if
       call keys%group(drag, group_effect, "torque of the seals and of the belt or chain on each camshaft, as a table "// &
          & "over speed and temperature; needs &cam_bearings")
-      if (keys%are_wanted()) then
-         allocate (case%shaft_drag)
+      if (keys%are_wanted(allocated(case%shaft_drag))) then
+         if (.not. allocated(case%shaft_drag)) allocate (case%shaft_drag)
          call keys%numbers("speed_points_rpm", not_negative, &
             & "speeds of the camshaft, increasing; with one alone the torque does not depend on it", case%shaft_drag%speed_points, &
             & example="0, 1000, 3000", usual=[0.0_wp, 10000.0_wp])

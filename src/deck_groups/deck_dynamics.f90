@@ -38,8 +38,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group("dynamics", group_effect, "a train that bends, leaves contact and returns")
-      if (.not. keys%are_wanted()) return
-      allocate (case%dynamics)
+      if (.not. keys%are_wanted(allocated(case%dynamics))) return
+      if (.not. allocated(case%dynamics)) allocate (case%dynamics)
       associate (dynamics => case%dynamics)
          ! A steel finger, its pad and a seat yield by some micrometres under some hundred newtons; stamped fingers and thin
          ! valve heads are the softest, by an order, forged ones of trucks the stiffest
@@ -78,8 +78,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group("spring_surge", group_effect, "waves in the valve spring of a flexible train")
-      if (.not. keys%are_wanted()) return
-      allocate (case%spring_surge)
+      if (.not. keys%are_wanted(allocated(case%spring_surge))) return
+      if (.not. allocated(case%spring_surge)) allocate (case%spring_surge)
       ! Wire of 2.5 to 6 mm
       call keys%number("mass_kg", positive, "mass of the spring's active coils, a third of which masses.valve_kg holds", &
          & case%spring_surge%mass, example="0.036", usual=[5.0e-3_wp, 0.5_wp])
@@ -95,8 +95,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group("lash_adjuster", group_effect, "hydraulic lash adjuster under the pivot of a flexible train")
-      if (.not. keys%are_wanted()) return
-      allocate (case%lash_adjuster)
+      if (.not. keys%are_wanted(allocated(case%lash_adjuster))) return
+      if (.not. allocated(case%lash_adjuster)) allocate (case%lash_adjuster)
       associate (adjuster => case%lash_adjuster)
          ! Adjusters of cars have plungers of 8 to 12 mm, those of trucks up to 25 mm, with a selective fit of 2 to 10 um
          call keys%number("diameter_mm", positive, "diameter of the plunger", adjuster%diameter, usual=[4.0_wp, 30.0_wp])

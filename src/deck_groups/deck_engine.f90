@@ -29,8 +29,8 @@ contains
 
       call keys%group(group, group_effect, "engine that the camshafts belong to: phases from the firing order, mean "// &
          & "pressures, harmonics of the drive torque")
-      if (.not. keys%are_wanted()) return
-      allocate (case%engine)
+      if (.not. keys%are_wanted(allocated(case%engine))) return
+      if (.not. allocated(case%engine)) allocate (case%engine)
       call keys%whole_number("cylinders", one_or_more, "number of cylinders, which fire at equal distances", &
          & case%engine%cylinders, example="4")
       ! From a moped's cylinder to a truck's engine of six

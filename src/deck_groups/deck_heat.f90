@@ -27,8 +27,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group(group, group_effect, "heat that thins the film at its inlet and the oil within the contact")
-      if (.not. keys%are_wanted()) return
-      allocate (case%heat)
+      if (.not. keys%are_wanted(allocated(case%heat))) return
+      if (.not. allocated(case%heat)) allocate (case%heat)
       call keys%choice("inlet_law", inlet_law_names, "factor on the film by shear heating of its inlet", case%heat%inlet_law)
       call keys%choice("contact", contact_heat_names, "temperature that the film is sheared at: that of the oil, or the mean "// &
          & "over the contact with the heat of friction", case%heat%contact)

@@ -36,8 +36,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group("valve_guide", group_effect, "valve stem in its guide")
-      if (keys%are_wanted()) then
-         allocate (case%valve_guide)
+      if (keys%are_wanted(allocated(case%valve_guide))) then
+         if (.not. allocated(case%valve_guide)) allocate (case%valve_guide)
          call keys%number("length_mm", positive, "length of the guide", case%valve_guide%length, example="36", &
             & usual=[10.0_wp, 150.0_wp])
          call keys%number("stem_diameter_mm", positive, "diameter of the valve stem", case%valve_guide%stem_diameter, example="5", &
@@ -46,23 +46,23 @@ contains
             & usual=[3.0_wp, 100.0_wp])
       end if
       call keys%group("valve_tip", group_effect, "friction of the finger's pad on the valve's tip")
-      if (keys%are_wanted()) then
-         allocate (case%valve_tip)
+      if (keys%are_wanted(allocated(case%valve_tip))) then
+         if (.not. allocated(case%valve_tip)) allocate (case%valve_tip)
          call keys%number("pad_radius_mm", positive, "radius of the pad, which is an arc about the end of the pad arm", &
             & case%valve_tip%pad_radius, example="8", usual=[3.0_wp, 60.0_wp])
          call bind_sliding(keys, case%valve_tip%sliding)
       end if
       call bind_stem(keys, case)
       call keys%group("finger_pivot", group_effect, "friction of the finger on the ball of its pivot")
-      if (keys%are_wanted()) then
-         allocate (case%finger_pivot)
+      if (keys%are_wanted(allocated(case%finger_pivot))) then
+         if (.not. allocated(case%finger_pivot)) allocate (case%finger_pivot)
          call keys%number("ball_radius_mm", positive, "radius of the ball", case%finger_pivot%ball_radius, example="5", &
             & usual=[2.0_wp, 15.0_wp])
          call bind_sliding(keys, case%finger_pivot%sliding)
       end if
       call keys%group("needle_drag", group_effect, "drag of the oil in the roller's needle bearing, by Palmgren's formula")
-      if (keys%are_wanted()) then
-         allocate (case%needle_drag)
+      if (keys%are_wanted(allocated(case%needle_drag))) then
+         if (.not. allocated(case%needle_drag)) allocate (case%needle_drag)
          call keys%number("pitch_diameter_mm", positive, "diameter of the circle through the middles of the needles", &
             & case%needle_drag%pitch_diameter, example="10.22", usual=[4.0_wp, 50.0_wp])
          call keys%number("viscous_factor", not_negative, "factor of bearing type and lubrication, f_0", case%needle_drag%factor, &
@@ -78,8 +78,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group("stem_seal", group_effect, "seal on the valve's stem")
-      if (keys%are_wanted()) then
-         allocate (case%stem_seal)
+      if (keys%are_wanted(allocated(case%stem_seal))) then
+         if (.not. allocated(case%stem_seal)) allocate (case%stem_seal)
          call keys%number("lip_force_N", not_negative, "friction of the lip", case%stem_seal%lip_force, example="8", &
             & usual=[0.0_wp, 40.0_wp])
          call keys%number("viscous_drag_N_s_m", not_negative, "drag per speed of the valve", case%stem_seal%viscous_drag, &
@@ -93,8 +93,8 @@ contains
             & case%stem_seal%reversal_speed)
       end if
       call keys%group("guide_side_load", group_effect, "friction of the stem pressed against the ends of its guide")
-      if (keys%are_wanted()) then
-         allocate (case%guide_side_load)
+      if (keys%are_wanted(allocated(case%guide_side_load))) then
+         if (.not. allocated(case%guide_side_load)) allocate (case%guide_side_load)
          call keys%number("guide_length_mm", positive, "length of the guide", case%guide_side_load%guide_length, example="36", &
             & usual=[10.0_wp, 150.0_wp])
          call keys%number("tip_height_mm", not_negative, "height of the valve's tip above the guide with the valve closed", &

@@ -31,8 +31,8 @@ contains
 
       call keys%group(group, group_effect, "shape and tilt of the roller along its axis, and the load along it that "// &
          & "follows")
-      if (.not. keys%are_wanted()) return
-      allocate (case%roller_profile)
+      if (.not. keys%are_wanted(allocated(case%roller_profile))) return
+      if (.not. allocated(case%roller_profile)) allocate (case%roller_profile)
       associate (profile => case%roller_profile)
          call keys%choice("profile", profile_names, "shape along the axis: a cylinder, an arc, a logarithm", profile%profile)
          call keys%number("crown_radius_mm", positive, "radius of a crowned roller along its axis", profile%crown_radius, &

@@ -30,8 +30,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group(group, group_effect, "bearing between roller and pin")
-      if (.not. keys%are_wanted()) return
-      allocate (case%needle_bearing)
+      if (.not. keys%are_wanted(allocated(case%needle_bearing))) return
+      if (.not. allocated(case%needle_bearing)) allocate (case%needle_bearing)
       associate (bearing => case%needle_bearing)
          call keys%choice("kind", roller_bearing_names, "needle bearing with a constant coefficient or by SKF's model, plain "// &
             & "pin with a constant coefficient, or plain pin with an oil film and asperities, a journal bearing", bearing%kind)

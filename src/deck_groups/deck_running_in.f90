@@ -29,8 +29,8 @@ contains
       type(case_t), intent(inout) :: case
 
       call keys%group("wear", group_effect, "wear of cam and roller by Archard, and stress below their surfaces")
-      if (keys%are_wanted()) then
-         allocate (case%wear)
+      if (keys%are_wanted(allocated(case%wear))) then
+         if (.not. allocated(case%wear)) allocate (case%wear)
          call keys%number("cam_rate_mm3_N_m", not_negative, "specific wear rate of the cam: volume over the load of its "// &
             & "asperities and the sliding distance", case%wear%cam_rate, example="1e-9", usual=[0.0_wp, 1.0e-3_wp])
          call keys%number("roller_rate_mm3_N_m", not_negative, "the same of the roller", case%wear%roller_rate, example="1e-9", &
@@ -38,8 +38,8 @@ contains
       end if
       call keys%group("tribofilm", group_effect, "film that additives of the oil grow on cam and roller over the hours of "// &
          & "&running_in")
-      if (keys%are_wanted()) then
-         allocate (case%tribofilm)
+      if (keys%are_wanted(allocated(case%tribofilm))) then
+         if (.not. allocated(case%tribofilm)) allocate (case%tribofilm)
          associate (film => case%tribofilm)
             call keys%number("growth_rate_nm_s", not_negative, "growth in contact if there were no barrier to the reaction", &
                & film%growth_rate, example="1e7", usual=[0.0_wp, 1.0e15_wp])
@@ -60,8 +60,8 @@ contains
       end if
       call keys%group("running_in", group_effect, "hours of running before the cycle of the result, in which films grow and "// &
          & "surfaces wear")
-      if (keys%are_wanted()) then
-         allocate (case%running_in)
+      if (keys%are_wanted(allocated(case%running_in))) then
+         if (.not. allocated(case%running_in)) allocate (case%running_in)
          call keys%number("duration_h", positive, "how long", case%running_in%duration, example="10", usual=[1.0e-3_wp, 1.0e4_wp])
          call keys%number("accuracy", range_t(finest, coarsest), &
             & "error allowed for thicknesses and depths, relative to the largest", case%running_in%accuracy)

@@ -29,7 +29,7 @@ module camroller_ehl_energy
    implicit none
    private
 
-   public :: ehl_energy_t, heat_made_t, new_energy, solve_energy, find_heat
+   public :: ehl_energy_t, heat_made_t, new_energy, solve_energy, find_heat, lowest_rise
 
    !> What stays while pressure, film and temperature are brought to agree
    type :: ehl_energy_t
@@ -258,9 +258,18 @@ contains
       call dgemv("N", n, n, 0.5_wp, energy%both, n, flux(:, 2), 1, 1.0_wp, apart, 1)
       surfaces(:, 1) = 0.5_wp*(both + apart)
       surfaces(:, 2) = 0.5_wp*(both - apart)
-      rise = max(film_part*resistance*flux(:, 1) + 0.5_wp*both, -largest_fall/max(problem%heat%hot%bend, &
-         & 1.0_wp/problem%heat%temperature))
+      rise = max(film_part*resistance*flux(:, 1) + 0.5_wp*both, lowest_rise(problem))
    end subroutine find_rises
+
+   !> Lowest rise on the way to a solution: no lower than laws of the viscosity can be asked for.
+   pure function lowest_rise(problem) result(rise)
+      !> The problem, with heat
+      type(ehl_problem_t), intent(in) :: problem
+      !> It, below zero [K]
+      real(wp) :: rise
+
+      rise = -largest_fall/max(problem%heat%hot%bend, 1.0_wp/problem%heat%temperature)
+   end function lowest_rise
 
    !> Heat made between the nodes at the viscosity there.
    pure subroutine find_heat(problem, grid, state, made)

@@ -8,7 +8,7 @@
 !> in circles in fast contacts whose inlet is hot.
 module camroller_ehl_heat
    use camroller_kinds, only : wp
-   use camroller_ehl_energy, only : ehl_energy_t, new_energy, solve_energy
+   use camroller_ehl_energy, only : ehl_energy_t, lowest_rise, new_energy, solve_energy
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_newton, only : ehl_state_t, solve_newton
    use camroller_ehl_problem, only : ehl_problem_t
@@ -75,6 +75,8 @@ contains
             converged = maxval(abs(fields%by_rise*(fields%rise - old))) <= tolerance
             if (converged) return
             call mix_turns(turns, fields%by_rise*(fields%rise - old), fields%rise)
+            ! A mixture of rises may lie beyond all of them
+            fields%rise = max(fields%rise, lowest_rise(problem))
             total = state%total
             level = state%level
             call solve_newton(problem, grid, state, min(tolerance, pressure_tolerance), newton_iterations, converged)

@@ -72,11 +72,6 @@ module camroller_torque_list
    logical, parameter :: is_loss(torque_count) = torque_list%kind == kind_loss, &
       & is_torque(torque_count) = torque_list%kind /= kind_residual
 
-   integer :: row
-   !> Their places
-   integer, parameter :: losses(*) = pack([(row, row=1, torque_count)], is_loss), &
-      & torques(*) = pack([(row, row=1, torque_count)], is_torque)
-
 contains
 
    !> Torque for all losses.
@@ -87,6 +82,8 @@ contains
       real(wp) :: total
 
       integer :: i
+      ! Places of the losses
+      integer, parameter :: losses(*) = pack([(i, i=1, torque_count)], is_loss)
 
       total = 0.0_wp
       do i = 1, size(losses)
@@ -102,6 +99,8 @@ contains
       real(wp) :: total
 
       integer :: i
+      ! Places of the torques
+      integer, parameter :: torques(*) = pack([(i, i=1, torque_count)], is_torque)
 
       total = 0.0_wp
       do i = 1, size(torques)

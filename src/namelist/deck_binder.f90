@@ -1,30 +1,34 @@
 !> The keys of a deck and the components of a case, bound to each other by one line a key.
 !>
 !> In: a schema that is being made, or settings. Out: each key in the schema, with the value that its variable has as the default;
-!> or each variable with the value of its key. One procedure of a group serves both, and a key is written once:
+!> or each variable with the value of its key; or what is wrong with the values of a case that was made by hand. One procedure of a
+!> group serves all three, and a key is written once:
 !>
 !>     call keys%group("heat", group_effect, "heat that thins the film at its inlet and the oil within the contact")
-!>     if (.not. keys%are_wanted()) return
-!>     allocate (case%heat)
+!>     if (.not. keys%are_wanted(allocated(case%heat))) return
+!>     if (.not. allocated(case%heat)) allocate (case%heat)
 !>     call keys%number("oil_conductivity_W_m_K", positive, "thermal conductivity of the oil", case%heat%oil_conductivity)
 !>
 !> A key but a list has its variable's value as default, unless it has an example or may be left out. A key without a variable is
 !> taken by other means.
 module camroller_deck_binder
-   use camroller_deck_schema, only : schema_t, range_t, add_group, add_key, group_effect, type_number, type_integer, type_logical, &
-      & type_name, type_text, type_numbers, type_integers
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use camroller_deck_schema, only : schema_t, range_t, add_group, add_key, group_effect, is_within, say_allowed, type_number, &
+      & type_integer, type_logical, type_name, type_text, type_numbers, type_integers
    use camroller_kinds, only : wp
    use camroller_names, only : are_same
-   use camroller_number_text, only : append_number, integer_text
+   use camroller_number_text, only : append_number, integer_text, number_text
    use camroller_settings, only : settings_t, find_value, group_position
    use camroller_units, only : from_si, unit_of_key
    implicit none
    private
 
-   public :: keys_t, declared_in, taken_from
+   public :: keys_t, declared_in, judged_in, taken_from
 
    !> Digits of a default that is converted to the unit of its key
    integer, parameter :: default_digits = 12
+   !> Part of itself by which a number may be beyond an end of its range, since its unit was converted [-]
+   real(wp), parameter :: round_off = 1.0e-12_wp
 
    !> Keys that are declared in a schema, or taken from settings
    type :: keys_t
@@ -37,6 +41,10 @@ module camroller_deck_binder
       integer :: section = 0, next = 0
       !> Is the group wanted?
       logical :: is_wanted = .true.
+      !> Are the values of variables judged by the ranges of their keys?
+      logical :: is_judging = .false.
+      !> What is wrong with them, a line each
+      character(len=:), allocatable :: faults
    contains
       procedure :: group
       procedure :: are_wanted
@@ -47,7 +55,9 @@ module camroller_deck_binder
       procedure :: text
       procedure :: numbers
       procedure :: whole_numbers
+      procedure :: found_faults
       procedure, private :: find
+      procedure, private :: judge
    end type keys_t
 
 contains
@@ -61,6 +71,69 @@ contains
 
       keys%schema => schema
    end function declared_in
+
+   !> Keys whose variables are judged by their ranges.
+   function judged_in(schema) result(keys)
+      !> A schema without keys, in which they are declared; it stays where it is as long as the keys are used
+      type(schema_t), intent(inout), target :: schema
+      !> The keys
+      type(keys_t) :: keys
+
+      keys%schema => schema
+      keys%is_judging = .true.
+      keys%faults = ""
+   end function judged_in
+
+   !> What is wrong with the variables of judged keys.
+   pure subroutine found_faults(keys, faults)
+      class(keys_t), intent(in) :: keys
+      !> A line each; empty where nothing is
+      character(len=:), allocatable, intent(out) :: faults
+
+      faults = keys%faults
+   end subroutine found_faults
+
+   !> Judge the variable of the key that was declared last. Zero stands for a number that is not given, of a key that may be left
+   !> out.
+   subroutine judge(keys, numbers)
+      class(keys_t), intent(inout) :: keys
+      !> Its numbers [SI unit]
+      real(wp), intent(in) :: numbers(:)
+
+      character(len=:), allocatable :: allowed
+      real(wp) :: number ! [unit of the key]
+      integer :: i
+
+      if (.not. keys%is_judging) return
+      associate (schema => keys%schema, key => keys%schema%keys(keys%schema%key_count))
+         do i = 1, size(numbers)
+            if (.not. (key%is_required .or. allocated(key%default)) .and. abs(numbers(i)) <= 0.0_wp) cycle
+            number = numbers(i)
+            if (ieee_is_finite(number)) then
+               number = from_si(key%unit, number)
+               if (is_within(number, key%range) .or. is_end(number, key%range)) cycle
+            end if
+            call say_allowed(key, allowed)
+            if (allowed == "") allowed = "a number"
+            if (keys%faults /= "") keys%faults = keys%faults//new_line("a")
+            keys%faults = keys%faults//trim(schema%groups(key%group)%name)//"."//trim(key%name)//" = "//number_text(number, 6)// &
+               & ", and must be "//allowed
+            return
+         end do
+      end associate
+   end subroutine judge
+
+   !> Is a number an end of a range that belongs to it, but for rounding?
+   pure function is_end(number, range) result(verdict)
+      !> The number [unit of the key]
+      real(wp), intent(in) :: number
+      type(range_t), intent(in) :: range
+      !> Is it?
+      logical :: verdict
+
+      verdict = (range%with_smallest .and. abs(number - range%smallest) <= round_off*abs(range%smallest)) .or. &
+         & (range%with_largest .and. abs(number - range%largest) <= round_off*abs(range%largest))
+   end function is_end
 
    !> Keys to be taken from settings.
    function taken_from(settings) result(keys)
@@ -99,13 +172,16 @@ contains
       end associate
    end subroutine group
 
-   !> Are the keys of the present group wanted: declared, or taken where their effect is in the deck?
-   pure function are_wanted(keys) result(verdict)
+   !> Are the keys of the present group wanted: declared, or taken where their effect is in the deck, or judged where it is in the
+   !> case?
+   pure function are_wanted(keys, is_in_case) result(verdict)
       class(keys_t), intent(in) :: keys
+      !> Is the effect in the case?
+      logical, intent(in) :: is_in_case
       !> Are they?
       logical :: verdict
 
-      verdict = keys%is_wanted
+      verdict = merge(is_in_case, keys%is_wanted, keys%is_judging)
    end function are_wanted
 
    !> Value of a key of the present group.
@@ -159,6 +235,7 @@ contains
       end if
       call add_key(keys%schema, name, type_number, meaning, range, default=default, example=example, is_optional=is_optional, &
          & usual=usual)
+      call keys%judge([variable])
    end subroutine number
 
    !> A whole number.
@@ -180,11 +257,14 @@ contains
       if (.not. associated(keys%schema)) then
          call keys%find(name, position)
          if (keys%settings%values(position)%is_known) variable = keys%settings%values(position)%integers(1)
-      else if (present(example)) then
+         return
+      end if
+      if (present(example)) then
          call add_key(keys%schema, name, type_integer, meaning, range, example=example)
       else
          call add_key(keys%schema, name, type_integer, meaning, range, default=integer_text(variable))
       end if
+      call keys%judge([real(variable, wp)])
    end subroutine whole_number
 
    !> A choice of yes and no.
@@ -279,6 +359,7 @@ contains
 
       if (associated(keys%schema)) then
          call add_key(keys%schema, name, type_numbers, meaning, range, example=example, is_optional=is_optional, usual=usual)
+         if (allocated(variable)) call keys%judge(variable)
          return
       end if
       call keys%find(name, position)
@@ -305,6 +386,8 @@ contains
 
       if (associated(keys%schema)) then
          call add_key(keys%schema, name, type_integers, meaning, range, example=example, is_optional=is_optional)
+         if (.not. present(variable)) return
+         if (allocated(variable)) call keys%judge(real(variable, wp))
          return
       end if
       call keys%find(name, position)

@@ -12,7 +12,7 @@ module camroller_deck_schema
    private
 
    public :: schema_t, key_t, range_t
-   public :: add_group, add_key, find_group, say_allowed, say_usual, group_names, key_names
+   public :: add_group, add_key, find_group, say_allowed, say_usual, group_names, is_within, key_names
    public :: group_required, group_standard, group_effect
    public :: type_number, type_integer, type_logical, type_name, type_text, type_numbers, type_integers, type_words
    public :: anything, positive, not_negative, proper_fraction, up_to, from_to, one_or_more, above_absolute_zero
@@ -204,6 +204,18 @@ contains
          end if
       end associate
    end subroutine add_key
+
+   !> Is a number in a range?
+   elemental function is_within(number, range) result(verdict)
+      !> The number [unit of the key]
+      real(wp), intent(in) :: number
+      type(range_t), intent(in) :: range
+      !> Is it?
+      logical :: verdict
+
+      verdict = (number > range%smallest .or. (range%with_smallest .and. .not. number < range%smallest)) .and. &
+         & (number < range%largest .or. (range%with_largest .and. .not. number > range%largest))
+   end function is_within
 
    !> Position of a group, 0 where it is unknown.
    pure function find_group(schema, name) result(position)

@@ -15,7 +15,7 @@ module camroller_deck_values
    use camroller_near_names, only : nearest_name
    use camroller_deck_bounds, only : is_bounded, say_bounds
    use camroller_unit_guess, only : say_meant
-   use camroller_deck_schema, only : key_t, range_t, key_length, say_allowed, type_number, type_integer, &
+   use camroller_deck_schema, only : key_t, is_within, key_length, say_allowed, type_number, type_integer, &
       & type_logical, type_name, type_text, type_numbers, type_integers, type_words
    implicit none
    private
@@ -320,18 +320,6 @@ contains
 
       words = number_words(number_kind(key))
    end function number_or_list
-
-   !> Is a number in a range?
-   elemental function is_within(number, range) result(verdict)
-      !> The number [unit of the key]
-      real(wp), intent(in) :: number
-      type(range_t), intent(in) :: range
-      !> Is it?
-      logical :: verdict
-
-      verdict = (number > range%smallest .or. (range%with_smallest .and. .not. number < range%smallest)) .and. &
-         & (number < range%largest .or. (range%with_largest .and. .not. number > range%largest))
-   end function is_within
 
    !> Next word of a list; quoted text stays in one piece, with its quotes, and with those inside, which are doubled.
    pure subroutine next_word(text, position, first, last, mark)

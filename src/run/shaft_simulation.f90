@@ -9,6 +9,7 @@ module camroller_shaft_simulation
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_number_text, only : integer_text
    use camroller_bearing_remarks, only : judge_step_bearings
+   use camroller_cam_lists, only : check_cam_lists
    use camroller_case, only : case_t
    use camroller_catalogue, only : camshaft_columns, camshaft_count, camshaft_values, follower_count, list_series, lobe_columns
    use camroller_lubricant, only : oil_t, get_oil
@@ -99,7 +100,8 @@ contains
             & "whole turn, not step by step; set journal_motion = 'quasi_steady' in &cam_bearings and leave &bearing_heat out")
          return
       end if
-      call get_oil(case%lubricant, case%operating_point%oil_temperature, oil, error)
+      if (allocated(case%cam_bearings)) call check_cam_lists(case%cam_bearings, allocated(case%second_lift), error)
+      if (.not. allocated(error)) call get_oil(case%lubricant, case%operating_point%oil_temperature, oil, error)
       if (.not. allocated(error)) call new_shaft(shaft%shaft, case, oil%viscosity, case%operating_point%speed, error)
       if (allocated(error)) return
       shaft%case = case

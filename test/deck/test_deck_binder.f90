@@ -163,13 +163,13 @@ contains
 
       keys = declared_in(schema)
       call keys%group("hole", group_effect, "a hole")
-      is_declared = keys%are_wanted()
+      is_declared = keys%are_wanted(.false.)
       call new_settings(schema, settings)
       do i = 1, 2
          settings%groups(1)%is_present = i == 2
          keys = taken_from(settings)
          call keys%group("hole", group_effect, "a hole")
-         is_there(i) = keys%are_wanted()
+         is_there(i) = keys%are_wanted(.false.)
       end do
       call check(error, is_declared .and. is_there(2) .and. .not. is_there(1))
    end subroutine effect_is_wanted

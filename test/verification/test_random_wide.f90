@@ -16,6 +16,7 @@ module test_random_wide
    use camroller_result, only : result_t
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
+   use camroller_deck_keys, only : check_case
    use camroller_deck_keys, only : new_schema
    use camroller_deck_schema, only : schema_t, key_t, add_group, add_key, group_effect, positive, type_integer, type_logical, &
       & type_name, type_number
@@ -277,6 +278,8 @@ contains
       trouble = ""
       call parse_deck(parsed, deck%text, "random deck", "", none, error, deck%tables)
       if (.not. allocated(error)) call make_case(parsed, none, case, error)
+      ! A case that is made so has no number outside of the range of its key
+      if (.not. allocated(error)) call check_case(case, error)
       if (allocated(error)) trouble = error%message
    end subroutine make_wide_case
 
