@@ -91,8 +91,7 @@ contains
       type(ehl_energy_t), intent(inout) :: energy
       !> In: pressure, film, and a start of the flux; out: rises, flux, viscosity there
       type(ehl_state_t), intent(inout) :: state
-      !> Change of ln(viscosity), and of the absolute temperature over itself, that may be left [-]: where an iteration runs away
-      !> the oil is so thin that its viscosity tells nothing more
+      !> Change of ln(viscosity) that may be left [-]
       real(wp), intent(in) :: tolerance
       !> Was it reached?
       logical, intent(out) :: converged
@@ -103,7 +102,7 @@ contains
       real(wp) :: resistance(grid%size), capacity(grid%size - 1), boundary(grid%size)
       ! Coefficients of the rise at the nodes i - 2 to i + 2 in the heat balance of node i, without and with that of heat [W/(m K)]
       real(wp) :: carried(-2:2, grid%size), rows(-2:2, grid%size)
-      ! What a heat balance lacks [W/m]; rises before [K]; change of ln(viscosity) or of the temperature, that before [-]
+      ! What a heat balance lacks [W/m]; rises before [K]; change of ln(viscosity), that before [-]
       real(wp) :: lack(grid%size), old(grid%size), change, before
       ! Factors of the system for the difference of the fluxes; pivots
       real(wp) :: factors(grid%size, grid%size) ! [m^2 K/W]
@@ -122,7 +121,7 @@ contains
             old = fields%rise
             call find_rises(problem, energy, resistance, boundary, factors, pivots, fields%flux, fields%rise, fields%surface_rise)
             call evaluate_oil(problem, grid, state%total, fields)
-            change = maxval(abs(fields%rise - old)*max(abs(fields%by_rise), 1.0_wp/(problem%heat%temperature + fields%rise)))
+            change = maxval(abs(fields%by_rise*(fields%rise - old)))
             if (iteration > 1 .and. change <= tolerance) exit
             call find_heat(problem, grid, state, made)
             lack = heat_lack(problem, grid, carried, made, fields%rise, fields%flux(:, 1))

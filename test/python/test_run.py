@@ -369,8 +369,8 @@ def test_profiles_of_a_run_have_no_torques_and_say_what_is_not_in_them(camroller
 @pytest.mark.parametrize("heat", ["film", "none"])
 def test_angles_of_profiles_that_are_not_solved_are_named_and_have_no_numbers(camroller, tmp_path, heat):
     """Oil that 3000 rev/min shear at -20 degC: film and temperature find no common state at some angles, while the isothermal film is
-    found. At the others the temperature is one that the oil of a contact has: at 230.5 degrees the iteration once ran away to 2e13 K,
-    where the viscosity, by which its end was judged, is nothing."""
+    found. At the others the temperature is one that the oil of a contact has: where mixtures of temperatures were not held above the
+    lowest one, an iteration ran away to 2e13 K, and with run-time checks the program ended."""
     text = (ROOT / "decks/heated_contact.nml").read_text() + "\n&ehl\n   profiles = .true.\n/\n"
     (tmp_path / "deck.nml").write_text(text)
     isothermal = ("--set", "heat.inlet_law=none", "--set", "heat.contact=none") if heat == "none" else ()

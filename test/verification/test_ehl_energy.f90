@@ -3,7 +3,7 @@ module test_ehl_energy
    use testdrive, only : new_unittest, unittest_type, error_type, check
    use camroller_kinds, only : wp
    use camroller_conjunction, only : body_t, hot_oil_t
-   use camroller_ehl_energy, only : ehl_energy_t, find_heat, heat_made_t, new_energy, solve_energy
+   use camroller_ehl_energy, only : find_heat, heat_made_t
    use camroller_ehl_films, only : common_multiplier, ehl_films_t
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_newton, only : ehl_state_t
@@ -26,8 +26,7 @@ contains
       testsuite = [ &
          new_unittest("a limited traction heats no place by more than about its pressure bears, on any grid", test_places), &
          new_unittest("derivatives of a limited traction's heat are difference quotients", test_slopes), &
-         new_unittest("one multiplier of all limits makes the parts' shear a force, where there is one", test_multiplier), &
-         new_unittest("from a film so hot that it has no viscosity the iteration comes back, or does not end", test_runaway)]
+         new_unittest("one multiplier of all limits makes the parts' shear a force, where there is one", test_multiplier)]
    end subroutine collect_ehl_energy
 
    !> Roller that its needles hold in oil of 95 degC: the free shear is fifteen times the limit, most of it in the pressure's spike.
@@ -144,32 +143,5 @@ contains
       multiplier = common_multiplier(cap_smooth, free, limits, 33.0_wp)
       call check_close(error, sum(multiplier*limits*tanh(free/(multiplier*limits))), 33.0_wp, 1.0e-10_wp, "free shear")
    end subroutine test_multiplier
-
-   !> The viscosity tells nothing of the temperature there, so that an end that goes by it alone is none.
-   subroutine test_runaway(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(ehl_problem_t) :: problem
-      type(ehl_grid_t) :: grid
-      type(ehl_state_t) :: state, hot
-      type(ehl_films_t) :: films
-      type(ehl_energy_t) :: energy
-      ! Heat into the surfaces to start from [W/m^2]: rises of 1e5 to 1e14 K
-      real(wp), parameter :: fluxes(*) = [1.0e10_wp, 1.0e13_wp, 1.0e16_wp, 1.0e19_wp]
-      integer :: i
-      logical :: converged
-
-      call solve(held_contact(), problem, grid, state, films, error)
-      if (allocated(error)) return
-      do i = 1, size(fluxes)
-         hot = state
-         hot%fields%flux = fluxes(i)
-         call new_energy(energy, problem, grid)
-         call solve_energy(problem, grid, energy, hot, 1.0e-6_wp, converged)
-         if (.not. converged) cycle
-         call check_scaled(error, maxval(abs(hot%fields%rise - state%fields%rise)), 0.0_wp, maxval(state%fields%rise), 1.0e-2_wp, &
-            & "rises")
-         if (allocated(error)) return
-      end do
-   end subroutine test_runaway
 
 end module test_ehl_energy
