@@ -75,7 +75,7 @@ contains
             converged = maxval(abs(fields%by_rise*(fields%rise - old))) <= tolerance
             if (converged) return
             call mix_turns(turns, fields%by_rise*(fields%rise - old), fields%rise)
-            ! A mixture of rises may lie beyond all of them, and beyond the pole of the viscosity's law iterations ran away to 2e13 K
+            ! A mixture of rises may lie beyond all of them; beyond the pole of the viscosity's law iterations ran away to 2e13 K
             fields%rise = max(fields%rise, lowest_rise(problem))
             total = state%total
             level = state%level
