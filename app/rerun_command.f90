@@ -355,7 +355,7 @@ contains
          if (is_text_dataset(file, name)) then
             call read_text(file, name, [integer ::], stored, failure)
             if (allocated(failure) .or. stored == without_quotes(echo%values(i)%text)) cycle
-            stored = "'"//stored//"'"
+            if (stored /= ".true." .and. stored /= ".false.") stored = "'"//stored//"'"
          else
             call read_numbers(file, name, [integer ::], [integer ::], number, failure)
             if (allocated(failure)) cycle

@@ -21,19 +21,18 @@ module camroller_remarks
       & spent_friction, thick_seal_oil, outer_asperities, insulated_metal, unusual_supply, unusual_gas
 
    !> Kinds, in the order of `remark_names`. Their numbers: part of the cycle [%], part of the cycle [%], error [-], times [-],
-   !> force [N], force [N], error [-], error [-], error [-], none, error [-], closure [-], cycles, travel over travel [-], film over
-   !> radius [-], pressure over that of the law [-], part of the cycle [%], speed of seating [m/s], part of the cycle [%], way
-   !> beyond the stop [m], pressure at the end over that of the mean load [-], part of the cycle [%], roughness over
-   !> film [-], part of the cycle [%], part of the cycle [%], pressure over what is allowed [-], width over that of the law or the
-   !> other way round [-], limit over film [-] for the next two, none, rise of the temperature [K], way beyond the points [K], part
-   !> of the lift [%], smallest lift [m], way below its rest [m], force [N], way beyond the formula [K], slip [-], depth over
+   !> force [N], force [N], error [-], error [-], error [-], part of the angles [%], error [-], closure [-], cycles, travel over
+   !> travel [-], film over radius [-], pressure over that of the law [-], part of the cycle [%], speed of seating [m/s], part of
+   !> the cycle [%], way beyond the stop [m], pressure at the end over that of the mean load [-], part of the cycle [%], roughness
+   !> over film [-], part of the cycle [%], part of the cycle [%], pressure over what is allowed [-], width over that of the law or
+   !> the other way round [-], limit over film [-] for the next two, none, rise of the temperature [K], way beyond the points [K],
+   !> part of the lift [%], smallest lift [m], way below its rest [m], force [N], way beyond the formula [K], slip [-], depth over
    !> lift [-], force [N], half width over length [-], load over that of a rigid train [-], slip [%], none, ambient pressure less
    !> that of the chamber [Pa], part of the cycle [%] for the next three, speed of the law over that of the roller [-], film over
-   !> roughness [-], part of the cycle [%], part of the sinking that is more than the lash [-], none, part of
-   !> the cycle [%], miss over the largest [-], none, viscosity over that of the warm oil [-], film over that with heat [-],
-   !> error [-], way beyond the points [K], viscosity over that of the warm oil [-], part of the cycle [%], viscosity over that of
-   !> the seal's drag [-], mean gain of a part of the load [-], friction with metal that passes heat on over that without [-],
-   !> none for the last two
+   !> roughness [-], part of the cycle [%], part of the sinking that is more than the lash [-], none, part of the cycle [%], miss
+   !> over the largest [-], none, viscosity over that of the warm oil [-], film over that with heat [-], error [-], way beyond the
+   !> points [K], viscosity over that of the warm oil [-], part of the cycle [%], viscosity over that of the seal's drag [-], mean
+   !> gain of a part of the load [-], friction with metal that passes heat on over that without [-], none for the last two
    integer, parameter :: lost_contact = 1, outside_range = 2, unresolved_slip = 3, standing_entrainment = 4, open_pivot = 5, &
       & pumped_adjuster = 6, missed_accuracy = 7, missed_means = 8, loose_tolerance = 9, missing_profiles = 10, &
       & missed_extremes = 11, no_period = 12, long_period = 13, relieved_spring = 14, film_without_limit = 15, &
@@ -50,7 +49,7 @@ module camroller_remarks
    !> What the kinds are called
    character(len=*), parameter :: remark_names(*) = [character(len=name_length) :: "contact lost", "film law out of range", &
       & "slip not resolved", "entrainment passes zero", "pivot joint opens", "adjuster pumps up", "accuracy not reached", &
-      & "means not accurate", "tolerance too loose", "no profiles", "extremes not accurate", "not periodic", &
+      & "means not accurate", "tolerance too loose", "profiles not solved", "extremes not accurate", "not periodic", &
       & "period of several cycles", "waves relieve the spring", "film without limit", "pressure law out of range", &
       & "heat of the inlet out of range", "valve bounces", "plunger rises in the event", "plunger at its stop", &
       & "contact cut off by an end", "end of the roller unloaded", "film of the pin too thin", "rolling law out of range", &

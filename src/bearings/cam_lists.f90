@@ -1,5 +1,5 @@
-!> Lists of a camshaft that was made by hand: each is there, has a place for each cam, and nothing that is no number. Those of decks
-!> are checked key by key.
+!> Lists of a camshaft that was made by hand: each is there, has a value for each cam, and nothing that is no number; each cam is
+!> between two bearings. Those of decks are checked key by key.
 !>
 !> In: camshaft and bearings. Out: an error that names the list.
 module camroller_cam_lists
@@ -24,17 +24,23 @@ contains
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: cams
+      integer :: cams, bearings
 
       if (.not. allocated(shaft%bearing_positions) .or. .not. allocated(shaft%cam_positions)) then
          call raise(error, kind_deck, "cam_bearings: bearing_positions and cam_positions must be given")
          return
       end if
       cams = size(shaft%cam_positions)
-      if (size(shaft%bearing_positions) < 1 .or. cams < 1) then
-         call raise(error, kind_deck, "cam_bearings: there must be a bearing and a cam")
+      bearings = size(shaft%bearing_positions)
+      if (bearings < 2 .or. cams < 1) then
+         call raise(error, kind_deck, "cam_bearings: there must be two bearings or more, and a cam")
       else if (.not. all(ieee_is_finite(shaft%bearing_positions)) .or. .not. all(ieee_is_finite(shaft%cam_positions))) then
          call raise(error, kind_deck, "cam_bearings: bearing_positions and cam_positions must be numbers")
+      else if (any(shaft%bearing_positions(2:) <= shaft%bearing_positions(:bearings - 1))) then
+         call raise(error, kind_deck, "cam_bearings: bearing_positions must increase")
+      else if (any(shaft%cam_positions < shaft%bearing_positions(1) .or. &
+         & shaft%cam_positions > shaft%bearing_positions(bearings))) then
+         call raise(error, kind_deck, "cam_bearings: each cam must stand between the first and the last bearing")
       end if
       if (allocated(error)) return
       call check_reals("cam_phases", shaft%cam_phases, cams, error)

@@ -54,7 +54,7 @@ contains
       call make_profiles(record, case, result, gaps, error)
       if (.not. allocated(error)) then
          if (len(gaps) > 0) call add_remark(result%remarks, missing_profiles, "profiles have no numbers at some angles: "// &
-            & gaps)
+            & gaps, 100.0_wp*count(ieee_is_nan(column(record, "peak_pressure")))/size(record%angle))
          if (allocated(case%dynamics)) call add_remark(result%remarks, plain_contacts, "profiles are solved at load and "// &
             & "slip of the flexible train and at the speeds of a rigid one")
          if (allocated(case%running_in)) call add_remark(result%remarks, plain_contacts, "profiles are solved between new "// &
@@ -63,7 +63,7 @@ contains
          return
       end if
       deallocate (record)
-      call add_remark(result%remarks, missing_profiles, "no profiles: "//error%message)
+      call add_remark(result%remarks, missing_profiles, "no profiles: "//error%message, 100.0_wp)
       result%lacks_profiles = .true.
    end subroutine find_profiles
 
@@ -232,7 +232,7 @@ contains
             & "pressure alone"
       end if
       words = "the iteration of "//unknowns//" did not end at "//integer_text(count(.not. is_solved))//" of "// &
-         & integer_text(size(angles))//" angles, the first of them "//cam_angle_text(angles(findloc(is_solved, .false., 1)), 3)// &
+         & integer_text(size(angles))//" angles, first at "//cam_angle_text(angles(findloc(is_solved, .false., 1)), 3)// &
          & advice
    end subroutine describe_gaps
 

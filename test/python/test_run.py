@@ -387,9 +387,21 @@ def test_angles_of_profiles_that_are_not_solved_are_named_and_have_no_numbers(ca
     assert lost.any() == (heat == "film") and not lost.all()
     if heat == "film":
         assert (f"profiles have no numbers at some angles: the iteration of film, pressure and temperature did not end at {lost.sum()} of "
-                f"80 angles, the first of them cam angle {angles[lost][0]:.3f} deg; isothermal profiles, with inlet_law = 'none' and "
+                f"80 angles, first at cam angle {angles[lost][0]:.3f} deg; isothermal profiles, with inlet_law = 'none' and "
                 "contact = 'none' in &heat, need that of film and pressure alone\n") in told
         assert numpy.nanmax(data["film_rise"]) < 1000.0
+
+
+def test_of_several_cases_that_with_most_angles_of_profiles_missing_is_told(camroller, tmp_path):
+    text = (ROOT / "decks/heated_contact.nml").read_text() + "\n&ehl\n   profiles = .true.\n/\n"
+    (tmp_path / "deck.nml").write_text(text)
+    done(camroller, "run", "deck.nml", "-o", "run.h5", "--set", "sweep.values_1=3000,4000", "--set", "sweep.values_2=-20", "--set",
+         "output.angle_step_deg=10", folder=tmp_path)
+    with h5py.File(tmp_path / "run.h5") as file:
+        missing = numpy.isnan(file["ehl/peak_pressure"][:]).sum(axis=1)
+        worst = [case for text, case in zip(file["run/remarks/worst"].asstr(), file["run/remarks/worst_case"]) if "profiles have" in text]
+    assert missing.min() > 0 and missing[0] != missing[1]
+    assert worst == [missing.argmax()]
 
 
 def test_a_film_beyond_its_table_is_not_one_outside_a_published_range(camroller, tmp_path):

@@ -115,7 +115,7 @@ contains
 
    subroutine test_lists_refused(error)
       type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: faults = 11
+      integer, parameter :: faults = 14
       type(case_t) :: given, the_case
       type(shaft_simulation_t) :: shaft
       type(result_t) :: result
@@ -167,6 +167,12 @@ contains
                shaft%bearing_positions = [real(wp) ::]
             case (11)
                shaft%follower_angles(1) = ieee_value(1.0_wp, ieee_quiet_nan)
+            case (12)
+               shaft%bearing_positions = [0.0_wp]
+            case (13)
+               shaft%bearing_positions = [0.06_wp, 0.0_wp]
+            case (14)
+               shaft%cam_positions(1) = 1.0_wp
             end select
          end associate
       end subroutine spoil
