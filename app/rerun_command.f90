@@ -318,7 +318,9 @@ contains
             if (difference%largest <= another_text) then
                text = text//"another text, first in case "
             else if (difference%largest < huge(1.0_wp)) then
-               text = text//"at most by "//number_text(difference%largest, 2)//" of its value, in case "
+               text = text//"at most by "//number_text(difference%largest, 2)// &
+                  & trim(merge(" of its largest value", " of its value        ", difference%is_row))//" ("// &
+                  & number_text(difference%stored)//" in the file, "//number_text(difference%computed)//" now), in case "
             else
                text = text//"a number in only one of the files, in case "
             end if

@@ -38,10 +38,30 @@ def test_differences_are_reported(camroller, folder, tmp_path):
     result = run(camroller, "rerun", "changed.h5", folder=tmp_path)
     assert result.returncode == DIFFERENCE
     assert "changed.h5: 2 of 4 cases differ\n" in result.stderr
-    assert "e-15 of its value, in case 3\n" in result.stderr or "e-16 of its value, in case 3\n" in result.stderr
+    told = re.search(r"mean_torque_drive: in 1 case, at most by (\S+) of its value \((\S+) in the file, (\S+) now\), in case 3\n", result.stderr)
+    assert 1e-16 < float(told[1]) < 1.3e-15
+    with h5py.File(folder / "deck.h5") as file, h5py.File(tmp_path / "changed.h5") as changed:
+        name = "summary/mean_torque_drive"
+        assert (float(told[2]), float(told[3])) == (changed[name][3], file[name][3]), "the numbers as they are, every digit"
     first, second = (result.stderr.index(f"  {name}: in 1 case") for name in ("series/contact_load", "summary/mean_torque_drive"))
     assert first < second, "the largest difference is told first"
     assert "  commit: 'another' made the file, this is '" in result.stderr
+
+
+def test_a_number_of_a_series_is_compared_with_the_largest(camroller, folder, tmp_path):
+    """Rounding of a number near zero is nothing beside the series: a change there of itself comes behind a smaller one of a mean."""
+    shutil.copy(folder / "deck.h5", tmp_path / "changed.h5")
+    with h5py.File(tmp_path / "changed.h5", "r+") as file:
+        file["summary/mean_torque_drive"][2] *= 1 + 1e-9
+        series = file["series/torque_drive"][2]
+        series[8] *= 1 + 1e-13
+        largest = abs(series).max()
+        series[7] += 1e-12*largest
+        file["series/torque_drive"][2] = series
+    told = run(camroller, "rerun", "changed.h5", folder=tmp_path).stderr
+    names = re.findall(r"\n  (\S+): in 1 case, at most by (\S+) of its (value|largest value) ", told)
+    assert [(name, size) for name, _, size in names] == [("summary/mean_torque_drive", "value"), ("series/torque_drive", "largest value")]
+    assert abs(float(names[1][1])/1e-12 - 1) < 0.05, "that of row 7, in two digits"
 
 
 def test_a_default_that_made_the_file_and_is_another_now_is_named(camroller, folder, tmp_path):
@@ -107,8 +127,8 @@ def test_words_units_and_what_is_only_in_the_file_are_compared(camroller, folder
 
 @pytest.mark.parametrize("change, words", [
     (lambda file: rewrite(file, "sweep/operating_point.speed_rpm", 0, 301),
-     "1 of 4 cases differs\n  sweep/operating_point.speed_rpm: in 1 case, at most by 0.0033 of its value, in case 0\n"),
-    (lambda file: rewrite(file, "case", slice(None), [3, 2, 1, 0]), "4 of 4 cases differ\n  case: in 4 cases, at most by 1 of its value, in case 0\n"),
+     "1 of 4 cases differs\n  sweep/operating_point.speed_rpm: in 1 case, at most by 0.0033 of its value (301 in the file, 300 now), in case 0\n"),
+    (lambda file: rewrite(file, "case", slice(None), [3, 2, 1, 0]), "4 of 4 cases differ\n  case: in 4 cases, at most by 1 of its value (3 in the file, 0 now), in case 0\n"),
 ])
 def test_cases_are_compared_with_those_of_the_deck(camroller, folder, tmp_path, change, words):
     shutil.copy(folder / "deck.h5", tmp_path / "x.h5")
@@ -209,7 +229,7 @@ def test_cases_without_a_result_now_are_told_with_their_message(camroller, folde
         file["deck/text"] = re.sub(r"pivot_to_cam_mm *= *[0-9.]+", "pivot_to_cam_mm = 60", text)
     result = run(camroller, "rerun", "changed.h5", "--threads", 1, folder=tmp_path)
     assert result.returncode == DIFFERENCE
-    assert "  summary/status: in 4 cases, at most by 1 of its value, in case 0\n" in result.stderr
+    assert re.search(r"  summary/status: in 4 cases, at most by 1 of its value \(0 in the file, [1-9] now\), in case 0\n", result.stderr)
     assert "  4 cases have no result now, first case 0: case 0 (operating_point.speed_rpm=300): " in result.stderr
     for _ in range(5):
         assert run(camroller, "rerun", "changed.h5", "--threads", 4, folder=tmp_path).stderr == result.stderr, "in any order"
