@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug counted mpi example install run dynamics comparison test quick bless random random-ehl random-flexible random-hosts random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
+.PHONY: help setup commit build debug counted mpi example install run dynamics comparison test quick bless random random-ehl random-flexible random-hosts random-wide step-estimates needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-dynamics bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := tools/fpm
@@ -159,6 +159,9 @@ random-wide: commit ## random cases with all options of a deck: CASES=20000 SEED
 random-hosts: commit ## random rigid followers stepped by a host against their runs: CASES=1000 SEED=1 FOLDER= for decks that fail
 	@HOST_CASES=$(or $(CASES),1000) HOST_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
 	  --flag "$(OPTIMISED_FLAGS)" -- random_hosts
+
+step-estimates: commit ## errors of steps of a host beside their estimates, rigid decks at up to POINTS=5 operating points, ten minutes: a table
+	@STEP_POINTS=$(or $(POINTS),5) $(FPM) test --flag "$(OPTIMISED_FLAGS)" -- step_estimates
 
 random-flexible: commit ## random flexible trains by two methods: CASES=100 SEED=1 FOLDER= for decks that fail, DECK= for one of them, ACCURACY= in the place of a tolerance of 1e-3
 	@FLEXIBLE_CASES=$(or $(CASES),100) FLEXIBLE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") \

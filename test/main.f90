@@ -120,6 +120,7 @@ program main
    use test_simulation, only : collect_simulation
    use test_saved_simulation, only : collect_saved_simulation
    use test_simulation_faults, only : collect_simulation_faults
+   use test_step_estimates, only : collect_step_estimates
    use test_step_remarks, only : collect_step_remarks
    use test_train_step_remarks, only : collect_train_step_remarks
    use test_shaft_simulation, only : collect_shaft_simulation
@@ -325,6 +326,7 @@ contains
          new_testsuite("minimum", collect_minimum), &
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("shaft_simulation", collect_shaft_simulation), &
+         new_testsuite("step_estimates", collect_step_estimates), &
          new_testsuite("step_remarks", collect_step_remarks), &
          new_testsuite("train_step_remarks", collect_train_step_remarks), &
          new_testsuite("hand_made", collect_hand_made), &

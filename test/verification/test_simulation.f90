@@ -1,7 +1,7 @@
 !> A follower driven from outside, angle by angle, against the periodic cycle of the same case.
 module test_simulation
    use testdrive, only : unittest_type, new_unittest, error_type, check
-   use camroller, only : wp, pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
+   use camroller, only : wp, pi, two_pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
       & start_simulation, advance, get_series, get_summary, halt, inputs_t
    use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, add_gas_force
@@ -24,6 +24,7 @@ contains
          new_unittest("speed and temperature may change during a turn", test_changes), &
          new_unittest("after a change of speed and temperature the state tends to the new periodic cycle", test_new_point), &
          new_unittest("two followers side by side give the bits of each alone", test_two), &
+         new_unittest("the estimated error of a step does not grow as steps get shorter", test_short_estimate), &
          new_unittest("a sticking roller has the mean friction of its cycle, with default numerics", test_sticking), &
          new_unittest("a roller at rest that its bearing nearly holds is started alike by two methods", test_start) &
          ]
@@ -286,6 +287,41 @@ contains
       end do
       call check(error, at_rest > 36, "the roller should stick for half of the turn or more")
    end subroutine test_sticking
+
+   !> Steps of a hundredth of a degree and of one ten-thousandth from the same places: the errors of the spin at both ends are
+   !> nearly the same one. Two that have nothing in common would make 100 times the estimate of the shorter step; what earlier steps
+   !> have left counts up to three times in it.
+   subroutine test_short_estimate(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: places = 24
+      real(wp), parameter :: steps(2) = [1.0e-2_wp, 1.0e-4_wp]*degree
+      type(simulation_t) :: simulation, trial
+      type(outcome_t) :: outcome, outcomes(2)
+      type(case_t) :: the_case
+      type(error_t), allocatable :: failure
+      real(wp) :: angle ! [rad]
+      character(len=80) :: words
+      integer :: i, k
+
+      the_case = thesis_case()
+      the_case%numerics = numerics_t(accuracy=1.0e-4_wp)
+      call start_simulation(simulation, the_case, 0.0_wp, failure)
+      associate (point => the_case%operating_point)
+         do i = 1, places
+            angle = i*two_pi/places
+            if (.not. allocated(failure)) call advance(simulation, angle, point%speed, point%oil_temperature, outcome, failure)
+            do k = 1, size(steps)
+               trial = simulation
+               if (.not. allocated(failure)) call advance(trial, angle + steps(k), point%speed, point%oil_temperature, &
+                  & outcomes(k), failure)
+            end do
+            if (has_failed(failure, error)) return
+            write (words, "(a, f6.1, 2es11.2)") "angle, estimates: ", angle/degree, outcomes%estimated_error
+            call check(error, outcomes(2)%estimated_error < 4.0_wp*outcomes(1)%estimated_error, words)
+            if (allocated(error)) return
+         end do
+      end associate
+   end subroutine test_short_estimate
 
    !> Steps from rest at angles all round, with speed and temperature that change within: the bearing's torque, which reverses
    !> within a hundredth of the cam's speed, changes with that speed. A method that needs no derivative over the angle agrees

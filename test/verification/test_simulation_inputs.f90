@@ -310,7 +310,9 @@ contains
          ! slip that ends in rest: 900
          drive_t("decks/hard/stick_slip_true.nml", 1.0e-3_wp, 360, 1, 900.0_wp, 60.0_wp, 0.03_wp), &
          ! knots of a lift table between the angles of the means: 25, with 2.4 times the accuracy in the friction
-         drive_t("decks/hard/fine_table.nml", 1.0e-3_wp, 720, 1, 600.0_wp, 60.0_wp, 0.03_wp)]
+         drive_t("decks/hard/fine_table.nml", 1.0e-3_wp, 720, 1, 600.0_wp, 60.0_wp, 0.03_wp), &
+         ! a roller off its cam, taken for one that slides on it from end to end of a step: 4000
+         drive_t("decks/hard/contact_loss_3200_rpm.nml", 1.0e-4_wp, 360, 1, 3200.0_wp, 95.0_wp, 0.0_wp)]
       integer :: i
 
       do i = 1, size(drives)
