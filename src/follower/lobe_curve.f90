@@ -286,7 +286,7 @@ contains
 
       ! Shares of the points [-]
       real(wp) :: shares(panel_points)
-      integer :: piece, i
+      integer :: piece
 
       is_known = .false.
       call find_piece(curve, angle, piece, shares)
@@ -295,13 +295,25 @@ contains
          values = 0.0_wp
          return
       end if
-      ! In one pass, not in one for each point
-      associate (v => curve%values(:, :, piece))
-         do i = 1, curve_values
-            values(i) = dot_product(v(i, :), shares)
-         end do
-      end associate
+      call interpolate(curve%values(:, :, piece), shares, values)
    end subroutine curve_at
+
+   !> Values on the polynomial of a piece: `matmul(points, s)`, several sums at once.
+   pure subroutine interpolate(points, s, values)
+      !> Values at the points of the piece [unit of each]
+      real(wp), intent(in) :: points(curve_values, panel_points)
+      !> Shares of the points [-]
+      real(wp), intent(in) :: s(panel_points)
+      !> The values [unit of each]
+      real(wp), intent(out) :: values(curve_values)
+
+      integer :: i
+
+      do i = 1, curve_values
+         values(i) = 0.0_wp + points(i, 1)*s(1) + points(i, 2)*s(2) + points(i, 3)*s(3) + points(i, 4)*s(4) + points(i, 5)*s(5) &
+            & + points(i, 6)*s(6) + points(i, 7)*s(7)
+      end do
+   end subroutine interpolate
 
    !> Contact to start from at a cam angle: on the polynomial of its piece, whether or not that is good enough for anything else.
    pure function contact_near(curve, angle) result(nearby)
