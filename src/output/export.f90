@@ -16,6 +16,7 @@ module camroller_export
    use camroller_number_text, only : integer_text, write_number, number_length
    use camroller_output_file, only : not_computed
    use camroller_output_kind, only : table_kind
+   use camroller_quotes, only : replaced
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t
    use camroller_result_columns, only : head_column, make_columns, open_result, read_column, table_t
    use camroller_streams, only : print_text
@@ -430,18 +431,8 @@ contains
       !> The word as it stands in the table
       character(len=:), allocatable :: text
 
-      integer :: i
-
-      if (scan(word, ","""//new_line("a")) == 0) then
-         text = word
-         return
-      end if
-      text = """"
-      do i = 1, len(word)
-         if (word(i:i) == """") text = text//""""
-         text = text//word(i:i)
-      end do
-      text = text//""""
+      text = word
+      if (scan(word, ","""//new_line("a")) > 0) text = """"//replaced(word, """", """""")//""""
    end function quoted
 
 end module camroller_export
