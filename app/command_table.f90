@@ -9,7 +9,7 @@ module camroller_command_table
    implicit none
    private
 
-   public :: command_t, option_t, list_commands, find_command, find_option, help_for, help_for_all
+   public :: command_t, list_commands, find_command, find_option, help_for, help_for_all
    public :: exit_codes
 
    !> One option of a command

@@ -100,7 +100,9 @@ contains
       do i = 1, size(names)
          names(i) = table%names(i)%text
          if (what == export_series .and. names(i) == "cam_angle") places = [places, i]
-         if (what == export_summary .and. (i == 1 .or. is_swept_key(names(i)))) places = [places, i]
+         ! Beside the number of the case keys that are swept
+         if (what == export_summary .and. (i == 1 .or. (index(names(i), ".") > 0 .and. index(names(i), measured_prefix) /= 1))) &
+            & places = [places, i]
       end do
       first = 1
       do while (first <= len_trim(wanted))
@@ -123,16 +125,6 @@ contains
       table%words = table%words(:, places)
       table%has_words = table%has_words(places)
    end subroutine choose_columns
-
-   !> Is a column of a summary a key that varies?
-   pure function is_swept_key(name) result(verdict)
-      !> Name of the column
-      character(len=*), intent(in) :: name
-      !> Is it?
-      logical :: verdict
-
-      verdict = index(name, ".") > 0 .and. index(name, measured_prefix) /= 1
-   end function is_swept_key
 
    !> Series of one case.
    subroutine read_series(file, cases, case, table, error)
