@@ -101,8 +101,8 @@ contains
          names(i) = table%names(i)%text
          if (what == export_series .and. names(i) == "cam_angle") places = [places, i]
          ! Beside the number of the case keys that are swept
-         if (what == export_summary .and. (i == 1 .or. (index(names(i), ".") > 0 .and. index(names(i), measured_prefix) /= 1))) &
-            & places = [places, i]
+         if (what /= export_summary) cycle
+         if (i == 1 .or. (index(names(i), ".") > 0 .and. index(names(i), measured_prefix) /= 1)) places = [places, i]
       end do
       first = 1
       do while (first <= len_trim(wanted))
