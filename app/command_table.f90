@@ -5,10 +5,11 @@
 module camroller_command_table
    use camroller_flexible_measure_list, only : event_words
    use camroller_limits_page, only : unseen_limit
+   use camroller_quotes, only : replaced
    implicit none
    private
 
-   public :: command_t, option_t, list_commands, find_command, find_option, help_for, help_for_all
+   public :: command_t, list_commands, find_command, find_option, help_for, help_for_all
    public :: exit_codes
 
    !> One option of a command
@@ -230,11 +231,7 @@ contains
       !> Name, what it is about, a few words, what it does
       character(len=*), intent(in) :: name, subject, summary, description
 
-      type(command_t), allocatable :: longer(:)
-
-      allocate (longer(size(commands) + 1))
-      longer(:size(commands)) = commands
-      call move_alloc(longer, commands)
+      commands = [commands, command_t()]
       associate (command => commands(size(commands)))
          command%name = name
          command%subject = subject
@@ -255,12 +252,8 @@ contains
       !> May it be given more than once? Not where not given
       logical, intent(in), optional :: may_be_repeated
 
-      type(option_t), allocatable :: longer(:)
-
       associate (command => commands(size(commands)))
-         allocate (longer(size(command%options) + 1))
-         longer(:size(command%options)) = command%options
-         call move_alloc(longer, command%options)
+         command%options = [command%options, option_t()]
          associate (option => command%options(size(command%options)))
             option%name = name
             option%short = short
@@ -313,7 +306,7 @@ contains
       character(len=:), allocatable, intent(out) :: text
 
       character(len=:), allocatable :: line
-      integer :: i, k
+      integer :: i
 
       text = "camroller "//trim(trim(command%name)//" "//command%subject)//" [options]"//n//n//command%description//n
       ! The first option is --help
@@ -322,10 +315,7 @@ contains
             line = "  "
             if (option%short /= "") line = "  "//option%short//", "
             text = text//n//padded(line//trim(trim(option%name)//" "//option%value))
-            do k = 1, len(option%meaning)
-               text = text//option%meaning(k:k)
-               if (option%meaning(k:k) == n) text = text//padded("")
-            end do
+            text = text//replaced(option%meaning, n, n//padded(""))
          end associate
       end do
    end subroutine help_for

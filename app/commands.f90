@@ -24,12 +24,13 @@ module camroller_commands
    use camroller_effect_words, only : choice_in_words
    use camroller_ehl_command, only : ehl_deck
    use camroller_export, only : export_csv, export_series, export_summary
-   use camroller_measure_command, only : audit_deck, limit_deck, study_deck
+   use camroller_measure_command, only : limit_deck, study_deck
    use camroller_text_lines, only : line_t
    use camroller_model, only : model_t
    use camroller_new_file, only : check_place, save_text
    use camroller_number_text, only : counted, integer_text
    use camroller_output_kind, only : cam_kind, drawing_kind, output_kind_t, table_kind
+   use camroller_quotes, only : replaced
    use camroller_remarks, only : remark_t
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
@@ -114,10 +115,8 @@ contains
          call rerun_file(config, error)
       case ("merge")
          call merge_deck(config, error)
-      case ("study")
+      case ("study", "audit")
          call study_deck(config, error)
-      case ("audit")
-         call audit_deck(config, error)
       case ("limit")
          call limit_deck(config, error)
       case ("ehl")
@@ -276,7 +275,7 @@ contains
       if (.not. allocated(error)) call describe_case(case, text, error)
       if (allocated(error)) return
       if (size(deck%sweep%axes) > 0) text = "the deck without its &sweep:"//new_line("a")//text
-      call print_lines("! "//replaced(text(:len(text) - 1)), error)
+      call print_lines("! "//replaced(text(:len(text) - 1), new_line("a"), new_line("a")//"! "), error)
       call list_deck_files(deck, inputs)
       if (.not. allocated(error) .and. config%drawing /= "") then
          call draw_mechanism(case, text, error)
@@ -329,22 +328,6 @@ contains
          & "another name, or remove it first")
    end subroutine keep_contour
 
-   !> Lines as comments of a deck.
-   pure function replaced(text) result(commented)
-      !> The lines
-      character(len=*), intent(in) :: text
-      !> All but the first with a mark before them
-      character(len=:), allocatable :: commented
-
-      integer :: i
-
-      commented = ""
-      do i = 1, len(text)
-         commented = commented//text(i:i)
-         if (text(i:i) == new_line("a")) commented = commented//"! "
-      end do
-   end function replaced
-
    !> Print which effects the cases need, where the deck leaves that to the program.
    subroutine check_effects(deck, error)
       type(deck_t), intent(in) :: deck
@@ -369,26 +352,10 @@ contains
          if (allocated(error)) return
          text = "! effects that matter for "//trim(case%effects%quantity)//", and changes expected without them"//n
          if (size(deck%sweep%axes) > 0) text = text//"! "//case_in_words(deck%sweep, number)//n
-         call print_lines(text//"!    "//indented(choice_in_words(choice)), error)
+         call print_lines(text//"!    "//replaced(choice_in_words(choice), n, n//"!    "), error)
          if (allocated(error)) return
       end do
    end subroutine check_effects
-
-   !> Lines as comments of a deck.
-   pure function indented(text)
-      !> The lines
-      character(len=*), intent(in) :: text
-      !> All but the first with a mark before them
-      character(len=:), allocatable :: indented
-
-      integer :: i
-
-      indented = ""
-      do i = 1, len(text)
-         indented = indented//text(i:i)
-         if (text(i:i) == new_line("a")) indented = indented//"!    "
-      end do
-   end function indented
 
    !> Number of cases, and the grid they make up.
    function cases_in_words(deck) result(words)

@@ -34,7 +34,7 @@ module camroller_measure_command
    implicit none
    private
 
-   public :: study_deck, audit_deck, limit_deck
+   public :: study_deck, limit_deck
 
    !> What can be measured, and what its table holds
    integer, parameter :: of_accuracy = 1, of_film = 2, of_effects = 3
@@ -45,7 +45,7 @@ module camroller_measure_command
 
 contains
 
-   !> What accuracy costs: of the integration, or of the numerical film.
+   !> What accuracy costs, of the integration or of the numerical film, or influence and cost of each effect.
    subroutine study_deck(config, error)
       !> What to do
       type(config_t), intent(in) :: config
@@ -61,6 +61,8 @@ contains
          call tell_deck_remarks(deck)
          call tell_choice(deck)
          call show_laws(deck, error)
+      else if (config%command == "audit") then
+         call measure_deck(config, of_effects, error)
       else
          call measure_deck(config, merge(of_film, of_accuracy, config%is_film), error)
       end if
@@ -99,16 +101,6 @@ contains
       end do
       if (.not. allocated(error)) call conclude(tally, error)
    end subroutine show_laws
-
-   !> Influence and cost of each effect.
-   subroutine audit_deck(config, error)
-      !> What to do
-      type(config_t), intent(in) :: config
-      !> What went wrong; the first failure where there are several
-      type(error_t), allocatable, intent(out) :: error
-
-      call measure_deck(config, of_effects, error)
-   end subroutine audit_deck
 
    !> Speeds up to which the train of a deck follows its cam.
    subroutine limit_deck(config, error)

@@ -184,7 +184,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(line_t), allocatable :: names(:)
-      type(kept_table_t), allocatable :: kept(:), longer(:)
+      type(kept_table_t), allocatable :: kept(:)
+      type(kept_table_t) :: new
       character(len=:), allocatable :: group
       integer :: i, k, stored
 
@@ -200,17 +201,13 @@ contains
                & group//".table', and cannot be computed again")
             return
          end if
-         allocate (longer(size(kept) + size(names)))
-         longer(:size(kept)) = kept
+         new%group = group
          do k = 1, size(names)
-            associate (new => longer(size(kept) + k))
-               new%group = group
-               call read_table(file, group//"_"//integer_text(k), new%table, error)
-               new%table%path = names(k)%text
-            end associate
+            call read_table(file, group//"_"//integer_text(k), new%table, error)
             if (allocated(error)) return
+            new%table%path = names(k)%text
+            kept = [kept, new]
          end do
-         call move_alloc(longer, kept)
       end do
       call move_alloc(kept, deck%tables%kept)
    end subroutine read_case_tables

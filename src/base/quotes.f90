@@ -1,11 +1,11 @@
-!> Texts in quotes, as namelists have them: the same quote at both ends, doubled inside.
+!> Texts in quotes, as namelists have them: the same quote at both ends, doubled inside; letters of a text replaced.
 !>
-!> In: a text. Out: the text with quotes or without.
+!> In: a text. Out: the text with quotes or without, or with other words for a letter.
 module camroller_quotes
    implicit none
    private
 
-   public :: is_quoted, in_quotes, without_quotes
+   public :: is_quoted, in_quotes, without_quotes, occurrences, replaced, xml_length, xml_text
 
    !> Quotes that a text may stand in
    character(len=*), parameter :: quotes = "'"""
@@ -40,8 +40,10 @@ contains
 
    !> How often a letter stands in a text.
    pure function occurrences(text, letter) result(number)
-      !> The text, and the letter
-      character(len=*), intent(in) :: text, letter
+      !> The text
+      character(len=*), intent(in) :: text
+      !> The letter
+      character(len=1), intent(in) :: letter
       !> How often
       integer :: number
 
@@ -52,6 +54,51 @@ contains
          if (text(i:i) == letter) number = number + 1
       end do
    end function occurrences
+
+   !> A text with words in the place of a letter.
+   pure function replaced(text, letter, words) result(new)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> The letter
+      character(len=1), intent(in) :: letter
+      !> What stands in its place
+      character(len=*), intent(in) :: words
+      !> The text with them
+      character(len=len(text) + occurrences(text, letter)*(len(words) - 1)) :: new
+
+      integer :: i, last
+
+      last = 0
+      do i = 1, len(text)
+         if (text(i:i) == letter) then
+            new(last + 1:last + len(words)) = words
+            last = last + len(words)
+         else
+            last = last + 1
+            new(last:last) = text(i:i)
+         end if
+      end do
+   end function replaced
+
+   !> Length of a text as it stands in XML.
+   pure function xml_length(text) result(length)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> The length
+      integer :: length
+
+      length = len(text) + 4*occurrences(text, "&") + 3*(occurrences(text, "<") + occurrences(text, ">"))
+   end function xml_length
+
+   !> A text as it stands in XML.
+   pure function xml_text(text) result(escaped)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> With what has a meaning in XML replaced, but for quotes
+      character(len=xml_length(text)) :: escaped
+
+      escaped = replaced(replaced(replaced(text, "&", "&amp;"), "<", "&lt;"), ">", "&gt;")
+   end function xml_text
 
    !> Length of what a text in quotes says.
    pure function plain_length(text) result(length)
@@ -71,19 +118,7 @@ contains
       !> The same in quotes
       character(len=len(text) + 2 + occurrences(text, "'")) :: quoted
 
-      integer :: i, place
-
-      quoted = "'"
-      place = 1
-      do i = 1, len(text)
-         if (text(i:i) == "'") then
-            place = place + 1
-            quoted(place:place) = "'"
-         end if
-         place = place + 1
-         quoted(place:place) = text(i:i)
-      end do
-      quoted(len(quoted):) = "'"
+      quoted = "'"//replaced(text, "'", "''")//"'"
    end function in_quotes
 
    !> What a text in quotes says; a text that is none, as it is.

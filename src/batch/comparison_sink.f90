@@ -96,14 +96,14 @@ contains
       type(case_outcome_t), allocatable :: outcomes(:)
       type(layout_t) :: own
       logical, allocatable :: differs(:), agrees(:), is_another(:)
-      integer :: first, count, layout, i
+      integer :: first, cases, layout, i
 
-      call take_header(record, first, count, layout)
+      call take_header(record, first, cases, layout)
       allocate (own%summary(0), own%series(0), own%angle(0))
       if (layout > 0) own = self%layouts%items(layout)
-      allocate (outcomes(count))
-      allocate (differs(count), is_another(count), source=.false.)
-      do i = 1, count
+      allocate (outcomes(cases))
+      allocate (differs(cases), is_another(cases), source=.false.)
+      do i = 1, cases
          call take_case(record, own, outcomes(i))
       end do
       if (.not. allocated(self%scalars)) call list_stored(self, error)
@@ -118,17 +118,8 @@ contains
          if (.not. allocated(error)) call compare_profiles(self, first, outcomes, differs, error)
       end if
       self%cases = self%cases + size(outcomes)
-      self%differing = self%differing + count_true(differs .or. is_another)
+      self%differing = self%differing + count(differs .or. is_another)
    end subroutine keep
-
-   !> Number of true values.
-   pure function count_true(values) result(number)
-      logical, intent(in) :: values(:)
-      !> How many are true
-      integer :: number
-
-      number = count(values)
-   end function count_true
 
    !> Compare what became of the cases.
    subroutine compare_statuses(self, first, outcomes, differs, error)
@@ -187,23 +178,19 @@ contains
 
       character(len=member_length), allocatable :: names(:)
       type(error_t), allocatable :: ignored
-      type(stored_t), allocatable :: longer(:)
-      integer :: i, n
+      type(stored_t) :: new
+      integer :: i
 
       if (.not. has_member(file, "/"//group)) return
       call list_members(file, "/"//group, names, error)
       if (allocated(error)) return
-      n = size(list)
-      allocate (longer(n + size(names)))
-      longer(:n) = list
       do i = 1, size(names)
          if (any(names(i) == [character(len=9) :: "status", "cam_angle"])) cycle
          if (is_text_dataset(file, "/"//group//"/"//trim(names(i)))) cycle
-         n = n + 1
-         longer(n)%name = group//"/"//names(i)
-         call read_text_attribute(file, "/"//trim(longer(n)%name), "units", longer(n)%unit, ignored)
+         new%name = group//"/"//names(i)
+         call read_text_attribute(file, "/"//trim(new%name), "units", new%unit, ignored)
+         list = [list, new]
       end do
-      list = longer(:n)
    end subroutine list_group
 
    !> Compare messages of cases without a result, remarks of the others, and why effects take part in them or not.

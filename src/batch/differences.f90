@@ -124,7 +124,6 @@ contains
       !> The difference, of one case
       type(difference_t), intent(in) :: new
 
-      type(difference_t), allocatable :: longer(:)
       integer :: place
       logical :: is_new
 
@@ -137,11 +136,7 @@ contains
       is_new = place > size(list)
       if (.not. is_new) is_new = list(place)%name /= new%name
       if (is_new) then
-         allocate (longer(size(list) + 1))
-         longer(:place - 1) = list(:place - 1)
-         longer(place) = new
-         longer(place + 1:) = list(place:)
-         call move_alloc(longer, list)
+         list = [list(:place - 1), new, list(place:)]
          return
       end if
       associate (known => list(place))

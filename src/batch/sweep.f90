@@ -318,6 +318,7 @@ contains
 
       type(part_sink_t), target :: sink
       type(error_t), allocatable :: last
+      integer(int64) :: rate
       real(wp) :: limit ! [s]
 
       loop%series = series_choice(deck%settings)
@@ -326,7 +327,10 @@ contains
       call take(deck%settings, "sweep", "series_cases", loop%series_cases)
       limit = 0.0_wp
       call take(deck%settings, "sweep", "wall_time_limit_s", limit)
-      if (limit > 0.0_wp) loop%deadline = clock_in(limit)
+      if (limit > 0.0_wp) then
+         call system_clock(loop%deadline, rate)
+         loop%deadline = loop%deadline + int(limit*real(rate, wp), int64)
+      end if
       call take(deck%settings, "sweep", "checkpoint_s", sink%interval)
       call team%reset()
       if (run_total(study%runs) == 0) return
@@ -339,19 +343,6 @@ contains
       call close_part(sink%part)
       if (.not. allocated(error) .and. allocated(last)) call move_alloc(last, error)
    end subroutine compute
-
-   !> The clock some time from now.
-   function clock_in(time) result(clock)
-      !> The time [s]
-      real(wp), intent(in) :: time
-      !> The clock
-      integer(int64) :: clock
-
-      integer(int64) :: rate
-
-      call system_clock(clock, rate)
-      clock = clock + int(time*real(rate, wp), int64)
-   end function clock_in
 
    !> Make the result file where everything is done; say what is not.
    subroutine finish(deck, options, study, ended, monitor, report, error)

@@ -9,7 +9,7 @@ module camroller_shaft_drag
    implicit none
    private
 
-   public :: shaft_drag_t, check_shaft_drag, find_shaft_drag, is_rising
+   public :: shaft_drag_t, check_shaft_drag, find_shaft_drag
 
    !> Table of the torque on each camshaft
    type :: shaft_drag_t

@@ -107,7 +107,7 @@ contains
       ! Place [clearance]; tolerance that the smallest film asks for, distance of end from start, that of the turn before
       ! [clearance]
       real(wp) :: place(2), wanted, distance, last_distance
-      integer :: kept
+      integer :: kept, i
 
       problem%journal = journal
       if (present(touch)) problem%touch = touch
@@ -131,7 +131,7 @@ contains
          misses(:, 1) = place - starts(:, 1)
          kept = min(kept + 1, 3)
          distance = norm2(misses(:, 1))
-         wanted = accuracy*smallest_gap(orbit%path)
+         wanted = accuracy*minval([(1.0_wp - norm2(orbit%path%state(:, i)), i=1, orbit%path%count)])
          if (distance <= near_enough*wanted .and. options%tolerance(1) <= 2.0_wp*wanted) return
          options%tolerance = wanted
          if (distance > slow*last_distance .and. kept == 3) call follow_secant(starts, misses, place, kept)
@@ -167,18 +167,6 @@ contains
       place = min(state%eccentricity, largest_start)/norm2(load)*[cos(attitude)*load(1) - sin(attitude)*load(2), &
          & sin(attitude)*load(1) + cos(attitude)*load(2)]
    end subroutine start_place
-
-   !> Smallest film of a turn at its points.
-   pure function smallest_gap(path) result(gap)
-      !> The turn
-      type(trajectory_t), intent(in) :: path
-      !> The film [clearance]
-      real(wp) :: gap
-
-      integer :: i
-
-      gap = minval([(1.0_wp - norm2(path%state(:, i)), i=1, path%count)])
-   end function smallest_gap
 
    !> Start of the next turn by the last three, where that is a place for a journal.
    pure subroutine follow_secant(starts, misses, place, kept)

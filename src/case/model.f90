@@ -18,7 +18,8 @@ module camroller_model
    use camroller_dynamics, only : gas_force_t, train_t, moments_t, evaluate_moments, seating_names, load_arm_names
    use camroller_input_ramp, only : ramp_t
    use camroller_pivot, only : assumed_inertia, new_pivot, pivot_t
-   use camroller_flexible_parts, only : flexible_t, set_oil
+   use camroller_flexible_parts, only : flexible_t
+   use camroller_lash_adjuster, only : set_adjuster_oil
    use camroller_flexible_setup, only : base_load, check_ball, set_flexible
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at
@@ -220,7 +221,9 @@ contains
       if (allocated(model%boundary)) call set_boundary_temperature(model%boundary, oil_temperature)
       if (allocated(model%guide)) call set_guide_oil(model%guide, model%oil%viscosity)
       if (allocated(model%joints)) call set_joint_oil(model%joints, model%oil%viscosity)
-      if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
+      if (allocated(model%flexible)) then
+         if (allocated(model%flexible%adjuster)) call set_adjuster_oil(model%flexible%adjuster, model%oil%viscosity)
+      end if
       if (allocated(model%bearing)) call set_bearing_oil(model%bearing, model%oil%viscosity, &
          & density_at(model%lubricant, oil_temperature))
       if (allocated(model%drag)) call set_drag_oil(model%drag, model%oil%viscosity/density_at(model%lubricant, oil_temperature))

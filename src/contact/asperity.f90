@@ -10,7 +10,7 @@ module camroller_asperity
    use camroller_boundary_law, only : boundary_curve_t, boundary_law_t, evaluate_boundary_curve, new_boundary_curve
    use camroller_names, only : name_length, find_name
    use camroller_greenwood_tripp, only : integral_2, integral_5_2, largest_film_ratio
-   use camroller_zhao_maietta_chang, only : summits_t, new_summits, summits_load, summits_area, first_yield, smallest_product
+   use camroller_zhao_maietta_chang, only : summits_t, new_summits, sum_polynomials, first_yield, smallest_product
    implicit none
    private
 
@@ -318,7 +318,7 @@ contains
       if (constants%law == law_greenwood_tripp) then
          call integral_5_2(film_ratio, value, slope)
       else
-         call summits_load(constants%summits, film_ratio, value, slope)
+         call sum_polynomials(constants%summits%load, constants%summits%reach, film_ratio, value, slope)
       end if
    end subroutine asperity_load_function
 
@@ -361,7 +361,7 @@ contains
       if (constants%law == law_greenwood_tripp) then
          call integral_2(film_ratio, value, slope)
       else
-         call summits_area(constants%summits, film_ratio, value, slope)
+         call sum_polynomials(constants%summits%area, constants%summits%reach, film_ratio, value, slope)
       end if
    end subroutine asperity_area_function
 

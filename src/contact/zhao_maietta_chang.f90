@@ -19,7 +19,7 @@ module camroller_zhao_maietta_chang
    implicit none
    private
 
-   public :: summits_t, new_summits, summits_load, summits_area, first_yield, smallest_product
+   public :: summits_t, new_summits, sum_polynomials, first_yield, smallest_product
 
    !> Product of density, tip radius and roughness that the polynomials are good for; below 0.0193 summits would scatter less than
    !> not at all [-]
@@ -86,30 +86,6 @@ contains
          summits%area = summits%area + logs(2)*polynomials
       end do
    end subroutine new_summits
-
-   !> Load of the summits over its factor, and its slope.
-   pure subroutine summits_load(summits, film_ratio, value, slope)
-      !> The summits
-      type(summits_t), intent(in) :: summits
-      !> Gap over roughness, 0 or more [-]
-      real(wp), intent(in) :: film_ratio
-      !> The integral, and its derivative with respect to the gap over roughness [-]
-      real(wp), intent(out) :: value, slope
-
-      call sum_polynomials(summits%load, summits%reach, film_ratio, value, slope)
-   end subroutine summits_load
-
-   !> Area of the summits over its factor, and its slope.
-   pure subroutine summits_area(summits, film_ratio, value, slope)
-      !> The summits
-      type(summits_t), intent(in) :: summits
-      !> Gap over roughness, 0 or more [-]
-      real(wp), intent(in) :: film_ratio
-      !> The integral, and its derivative with respect to the gap over roughness [-]
-      real(wp), intent(out) :: value, slope
-
-      call sum_polynomials(summits%area, summits%reach, film_ratio, value, slope)
-   end subroutine summits_area
 
    !> Exponential of a sum of Chebyshev polynomials, by Clenshaw's recurrence, and its slope; zero beyond the reach.
    pure subroutine sum_polynomials(coefficients, reach, film_ratio, value, slope)

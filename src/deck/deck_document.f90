@@ -206,7 +206,7 @@ contains
          text = text//mark//"&"//trim(group%name)//new_line("a")
          do i = group%first, group%last
             line = mark//"   "
-            if (.not. has_shown_value(schema%keys(i)) .and. mark == "") line = "!  "
+            if (.not. (allocated(schema%keys(i)%default) .or. allocated(schema%keys(i)%example)) .and. mark == "") line = "!  "
             call show_value(schema%keys(i), value)
             call describe_key(schema, schema%keys(i), comment)
             call add_line(line//trim(schema%keys(i)%name)//" = "//value, comment, text)
@@ -231,15 +231,6 @@ contains
          words = "computed only where the group is given"
       end select
    end function kind_in_words
-
-   !> Has a key a value to show that is right as it stands?
-   pure function has_shown_value(key) result(verdict)
-      type(key_t), intent(in) :: key
-      !> Has it?
-      logical :: verdict
-
-      verdict = allocated(key%default) .or. allocated(key%example)
-   end function has_shown_value
 
    !> Default, example, or a sign for the kind of value.
    pure subroutine show_value(key, value)

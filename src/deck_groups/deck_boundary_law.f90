@@ -5,11 +5,11 @@ module camroller_deck_boundary_law
    use camroller_boundary_law, only : boundary_law_names, boundary_law_t, boundary_logarithmic, boundary_table
    use camroller_case, only : case_t
    use camroller_deck_binder, only : keys_t
-   use camroller_deck_complaint, only : complain, complain_about_group, demand
+   use camroller_deck_complaint, only : check_points, complain, complain_about_group, demand
    use camroller_deck_schema, only : group_effect, anything, positive, not_negative, above_absolute_zero
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
-   use camroller_settings, only : settings_t, get_word, has_group, is_known, take
+   use camroller_settings, only : settings_t, get_word, has_group, take
    implicit none
    private
 
@@ -65,7 +65,6 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       type(boundary_law_t) :: law
-      logical :: has_points
       character(len=*), parameter :: logarithmic_keys(*) = [character(len=26) :: "reference_speed_m_s", &
          & "reference_temperature_degC", "change_per_decade", "change_per_K", "lowest_speed_m_s"]
       character(len=*), parameter :: table_keys(*) = [character(len=26) :: "speed_points_m_s", "temperature_points_degC", &
@@ -83,16 +82,7 @@ contains
       call take(settings, group, "largest_coefficient", law%largest)
       if (law%largest < law%smallest) call complain(mistakes, settings, group, "largest_coefficient", &
          & "'largest_coefficient' is below 'smallest_coefficient'")
-      has_points = is_known(settings, group, "speed_points_m_s") .and. is_known(settings, group, "temperature_points_degC") &
-         & .and. is_known(settings, group, "coefficient_points")
-      if (.not. has_points) return
-      call take(settings, group, "speed_points_m_s", law%speed_points)
-      call take(settings, group, "temperature_points_degC", law%temperature_points)
-      call take(settings, group, "coefficient_points", law%coefficient_points)
-      call check_rising("speed_points_m_s", law%speed_points)
-      call check_rising("temperature_points_degC", law%temperature_points)
-      if (size(law%coefficient_points) /= size(law%speed_points)*size(law%temperature_points)) call complain(mistakes, settings, &
-         & group, "coefficient_points", "'coefficient_points' has one number for each speed at each temperature")
+      call check_points(settings, group, table_keys, mistakes)
 
    contains
 
@@ -109,17 +99,6 @@ contains
             call demand(settings, group, trim(keys(i)), "boundary law '"//trim(boundary_law_names(law))//"'", mistakes)
          end do
       end subroutine demand_all
-
-      !> Points of a table increase.
-      subroutine check_rising(key, points)
-         !> Name of the key
-         character(len=*), intent(in) :: key
-         !> The points [any]
-         real(wp), intent(in) :: points(:)
-
-         if (any(points(2:) <= points(:size(points) - 1))) call complain(mistakes, settings, group, key, &
-            & "the numbers of '"//key//"' must increase")
-      end subroutine check_rising
 
    end subroutine check_boundary_law
 

@@ -6,13 +6,12 @@ module camroller_deck_cam_bearings
    use camroller_bearing_heat, only : direct_advice, flow_advice, flow_covers_width
    use camroller_case, only : case_t
    use camroller_deck_binder, only : keys_t
-   use camroller_deck_complaint, only : complain, complain_about_group
+   use camroller_deck_complaint, only : check_points, complain, complain_about_group
    use camroller_deck_schema, only : group_effect, anything, positive, not_negative, from_to, one_or_more, above_absolute_zero
    use camroller_journal, only : journal_law_names, journal_motion_names, law_covers_width
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, get_word, has_group, is_known, take
-   use camroller_shaft_drag, only : is_rising, shaft_drag_t
    implicit none
    private
 
@@ -149,7 +148,8 @@ contains
             & "&"//drag//" needs the group &"//bearings)
          return
       end if
-      call check_drag(settings, mistakes)
+      call check_points(settings, drag, [character(len=23) :: "speed_points_rpm", "temperature_points_degC", "torque_points_Nm"], &
+         & mistakes)
       if (has_group(settings, warm)) then
          if (get_word(settings, "lubricant", "temperature_law") == "direct") call complain_about_group(mistakes, settings, warm, &
             & direct_advice)
@@ -180,26 +180,5 @@ contains
       if (law_covers_width(get_word(settings, bearings, "law"), width, diameter)) call complain(mistakes, settings, bearings, &
          & "width_mm", flow_advice)
    end subroutine check_flow
-
-   !> Rules: the table of seals and drive rises in speed and temperature, and has a torque for each pair.
-   subroutine check_drag(settings, mistakes)
-      type(settings_t), intent(in) :: settings
-      !> Mistakes so far
-      type(mistakes_t), intent(inout) :: mistakes
-
-      type(shaft_drag_t) :: table
-
-      if (.not. (is_known(settings, drag, "speed_points_rpm") .and. is_known(settings, drag, "temperature_points_degC") .and. &
-         & is_known(settings, drag, "torque_points_Nm"))) return
-      call take(settings, drag, "speed_points_rpm", table%speed_points)
-      call take(settings, drag, "temperature_points_degC", table%temperature_points)
-      call take(settings, drag, "torque_points_Nm", table%torque_points)
-      if (.not. is_rising(table%speed_points)) call complain(mistakes, settings, drag, "speed_points_rpm", &
-         & "the numbers of 'speed_points_rpm' must increase")
-      if (.not. is_rising(table%temperature_points)) call complain(mistakes, settings, drag, "temperature_points_degC", &
-         & "the numbers of 'temperature_points_degC' must increase")
-      if (size(table%torque_points) /= size(table%speed_points)*size(table%temperature_points)) call complain(mistakes, &
-         & settings, drag, "torque_points_Nm", "'torque_points_Nm' has one number for each speed at each temperature")
-   end subroutine check_drag
 
 end module camroller_deck_cam_bearings

@@ -3,6 +3,7 @@
 !> In: a text. Out: `text_lines_t`, which keeps the text in one piece, so that a text of millions of lines needs little more
 !> memory than its own size.
 module camroller_text_lines
+   use camroller_quotes, only : occurrences
    implicit none
    private
 
@@ -39,10 +40,7 @@ contains
       lines%text = text
       ending = new_line("a")
       if (index(text, ending) == 0 .and. index(text, char(13)) > 0) ending = char(13)
-      n = 0
-      do i = 1, len(text)
-         if (text(i:i) == ending) n = n + 1
-      end do
+      n = occurrences(text, ending)
       if (len(text) > 0) then
          if (text(len(text):) /= ending) n = n + 1
       end if
@@ -80,12 +78,10 @@ contains
       !> One more
       character(len=*), intent(in) :: text
 
-      type(line_t), allocatable :: longer(:)
+      type(line_t) :: new
 
-      allocate (longer(size(lines) + 1))
-      longer(:size(lines)) = lines
-      longer(size(longer))%text = text
-      call move_alloc(longer, lines)
+      new%text = text
+      lines = [lines, new]
    end subroutine add_line
 
 end module camroller_text_lines

@@ -5,11 +5,11 @@ module camroller_flexible_parts
    use camroller_kinds, only : wp
    use camroller_contact_compliance, only : line_compliance, damping_of_restitution
    use camroller_spring_modes, only : spring_modes_t
-   use camroller_lash_adjuster, only : adjuster_t, set_adjuster_oil
+   use camroller_lash_adjuster, only : adjuster_t
    implicit none
    private
 
-   public :: dynamics_t, flexible_t, set_contacts, set_oil, usual_dynamics
+   public :: dynamics_t, flexible_t, set_contacts, usual_dynamics
    public :: damper_count, dampers_without_adjuster, damper_series, damper_meanings
 
    !> Where a train loses energy to damping; the last four are of the adjuster: names of the series and what each is of
@@ -120,15 +120,5 @@ contains
       end if
       flexible%lash = dynamics%lash
    end subroutine set_contacts
-
-   !> What depends on the oil's viscosity.
-   pure subroutine set_oil(flexible, viscosity)
-      !> The train
-      type(flexible_t), intent(inout) :: flexible
-      !> Viscosity at ambient pressure [Pa s]
-      real(wp), intent(in) :: viscosity
-
-      if (allocated(flexible%adjuster)) call set_adjuster_oil(flexible%adjuster, viscosity)
-   end subroutine set_oil
 
 end module camroller_flexible_parts

@@ -6,6 +6,7 @@ module camroller_fmu_description
    use camroller_kinds, only : wp
    use camroller_fmu_variables, only : variable_t, role_time, role_parameter, role_input, role_output
    use camroller_number_text, only : integer_text, number_text
+   use camroller_quotes, only : occurrences, replaced, xml_length, xml_text
    use camroller_unit_dimensions, only : base_names, dimension_t, find_dimension
    use camroller_version, only : version_text
    implicit none
@@ -159,59 +160,14 @@ contains
       end if
    end subroutine add_variable
 
-   !> A letter as XML has it.
-   pure function escaped(letter) result(word)
-      character(len=1), intent(in) :: letter
-      !> What stands for it
-      character(len=6) :: word
-
-      select case (letter)
-      case ("&")
-         word = "&amp;"
-      case ("<")
-         word = "&lt;"
-      case (">")
-         word = "&gt;"
-      case ('"')
-         word = "&quot;"
-      case default
-         word = letter
-      end select
-   end function escaped
-
-   !> Length of a text as XML has it, without blanks at its end.
-   pure function escaped_length(value) result(length)
-      !> The text
-      character(len=*), intent(in) :: value
-      !> Letters
-      integer :: length
-
-      integer :: i
-
-      length = 0
-      do i = 1, len_trim(value)
-         length = length + max(1, len_trim(escaped(value(i:i))))
-      end do
-   end function escaped_length
-
    !> An attribute with a blank before it; blanks at the ends of its name and value are left out.
    pure function attribute(name, value) result(text)
       !> Its name and value
       character(len=*), intent(in) :: name, value
       !> The attribute
-      character(len=len_trim(name) + escaped_length(value) + 4) :: text
+      character(len=len_trim(name) + xml_length(trim(value)) + 5*occurrences(value, '"') + 4) :: text
 
-      integer :: i, last
-
-      text = " "//trim(name)//'="'
-      last = len_trim(name) + 3
-      do i = 1, len_trim(value)
-         text(last + 1:) = trim(escaped(value(i:i)))
-         last = last + escaped_length(value(i:i))
-         ! a blank is a letter here
-         if (value(i:i) == " ") last = last + 1
-      end do
-      text(last + 1:) = '"'
+      text = " "//trim(name)//'="'//replaced(xml_text(trim(value)), '"', "&quot;")//'"'
    end function attribute
 
 end module camroller_fmu_description

@@ -125,24 +125,10 @@ contains
          one%key = "-"
          if (present(start)) one%start = start
          if (present(of_cam)) one%cam = of_cam
-         call append(variables, one)
+         variables = [variables, one]
       end subroutine add
 
    end subroutine list_variables
-
-   !> Append a variable to a list.
-   pure subroutine append(variables, one)
-      !> The list
-      type(variable_t), allocatable, intent(inout) :: variables(:)
-      type(variable_t), intent(in) :: one
-
-      type(variable_t), allocatable :: longer(:)
-
-      allocate (longer(size(variables) + 1))
-      longer(:size(variables)) = variables
-      longer(size(longer)) = one
-      call move_alloc(longer, variables)
-   end subroutine append
 
    !> Parameters: the numbers that the deck gives, but for its operating point.
    subroutine add_keys(deck, variables)
@@ -166,7 +152,7 @@ contains
             one%meaning = key%meaning
             one%kind = "key"
             read (deck%settings%values(positions(i))%text, *, iostat=status) one%start
-            if (status == 0) call append(variables, one)
+            if (status == 0) variables = [variables, one]
          end associate
       end do
    end subroutine add_keys
@@ -199,7 +185,7 @@ contains
          if (cam > 0) one%name = "cam["//integer_text(cam)//"]."//one%name
          one%unit = trim(series(i)%unit)
          one%meaning = series(i)%description
-         call append(variables, one)
+         variables = [variables, one]
       end do
    end subroutine add_series
 

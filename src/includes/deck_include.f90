@@ -5,7 +5,7 @@
 !> it stands in. Paths start at the folder of the file that names them.
 module camroller_deck_include
    use camroller_deck_merge, only : merge_files
-   use camroller_deck_origins, only : origins_t, source_file_t, growing_text_t, add_source, add_text_line, grown_text
+   use camroller_deck_origins, only : origins_t, source_file_t, growing_text_t, add_text_line, grown_text
    use camroller_deck_text, only : to_lower
    use camroller_error, only : error_t
    use camroller_file_facts, only : facts_of_path, is_same_file
@@ -58,7 +58,7 @@ contains
       deck%path = ""
       deck%without = " "
       call split_lines(text, deck%lines)
-      call add_source(origins%files, deck)
+      origins%files = [origins%files, deck]
       call add_file(1, folder, 0, growing, origins%files, mistakes)
       if (size(origins%files) == 1 .and. mistakes%count == before) then
          origins%files = origins%files(:0)
@@ -119,7 +119,7 @@ contains
             cycle
          end if
          call split_lines(included, next%lines)
-         call add_source(files, next)
+         files = [files, next]
          call add_file(size(files), folder_of(next%path), depth + 1, whole, files, mistakes)
       end do
    end subroutine add_file

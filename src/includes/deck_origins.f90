@@ -9,7 +9,7 @@ module camroller_deck_origins
    implicit none
    private
 
-   public :: origins_t, source_file_t, growing_text_t, add_text_line, add_source, grown_text, is_above, place_mistakes, say_origin
+   public :: origins_t, source_file_t, growing_text_t, add_text_line, grown_text, is_above, place_mistakes, say_origin
 
    !> The deck, or a file that it includes, directly or by others
    type :: source_file_t
@@ -52,18 +52,13 @@ contains
       !> Position of its file and line there
       integer, intent(in) :: place(2)
 
-      character(len=:), allocatable :: longer
       integer, allocatable :: more(:, :)
       integer :: needed
 
       if (.not. allocated(growing%text)) allocate (character(len=4096) :: growing%text)
       if (.not. allocated(growing%places)) allocate (growing%places(2, 128))
       needed = growing%length + len(line) + 1
-      if (needed > len(growing%text)) then
-         allocate (character(len=2*needed) :: longer)
-         longer(:growing%length) = growing%text(:growing%length)
-         call move_alloc(longer, growing%text)
-      end if
+      if (needed > len(growing%text)) growing%text = growing%text//repeat(" ", needed)
       growing%text(growing%length + 1:needed) = line//new_line("a")
       growing%length = needed
       if (growing%lines == size(growing%places, 2)) then
@@ -90,21 +85,6 @@ contains
       text = growing%text(:growing%length)
       places(:, :) = growing%places(:, :growing%lines)
    end subroutine grown_text
-
-   !> Add a file. A constructor within a list would leak its text with gfortran.
-   subroutine add_source(files, source)
-      !> Files so far
-      type(source_file_t), allocatable, intent(inout) :: files(:)
-      !> One more
-      type(source_file_t), intent(in) :: source
-
-      type(source_file_t), allocatable :: longer(:)
-
-      allocate (longer(size(files) + 1))
-      longer(:size(files)) = files
-      longer(size(longer)) = source
-      call move_alloc(longer, files)
-   end subroutine add_source
 
    !> Does a file include another one, directly or by others?
    pure function is_above(files, upper, lower) result(verdict)

@@ -11,7 +11,7 @@ module camroller_lift_drawing
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_number_text, only : fixed_text, number_text
    use camroller_output_kind, only : drawing_kind
-   use camroller_sketch, only : escaped
+   use camroller_quotes, only : xml_text
    implicit none
    private
 
@@ -80,7 +80,7 @@ contains
       call find_curves(given_table(lift), curves, error)
       if (allocated(error)) return
       body = body//'<text x="'//fixed_text(left, 0)//'" y="'//fixed_text(depth + 24.0_wp, 0)//'" font-weight="bold">'// &
-         & escaped(title)//trim(merge(", values of its table over their own angle", repeat(" ", 42), &
+         & xml_text(title)//trim(merge(", values of its table over their own angle", repeat(" ", 42), &
          & allocated(lift%given_lift)))//"</text>"//n
       call add_legend(curves(:, 0), depth + 46.0_wp, body)
       do order = 0, 3
@@ -202,7 +202,7 @@ contains
 
       do i = 1, size(curves)
          body = body//'<text x="'//fixed_text(left + 250.0_wp*(i - 1), 0)//'" y="'//fixed_text(place, 0)//'" fill="'// &
-            & curves(i)%colour//'">'//escaped(trim(curves(i)%words))//"</text>"//n
+            & curves(i)%colour//'">'//xml_text(trim(curves(i)%words))//"</text>"//n
       end do
    end subroutine add_legend
 
@@ -279,7 +279,7 @@ contains
          character(len=*), intent(in) :: anchor, what
 
          body = body//'<text x="'//fixed_text(x, 1)//'" y="'//fixed_text(y, 1)//'" text-anchor="'//anchor//'" fill="#333333">'// &
-            & escaped(what)//"</text>"//n
+            & xml_text(what)//"</text>"//n
       end subroutine add_words
 
    end subroutine add_panel

@@ -10,11 +10,12 @@ module camroller_sketch
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_number_text, only : fixed_text, number_text
    use camroller_output_kind, only : drawing_kind
+   use camroller_quotes, only : xml_text
    use camroller_run, only : build_models
    implicit none
    private
 
-   public :: draw_mechanism, escaped
+   public :: draw_mechanism
 
    !> Units of the drawing in a metre, its margin, height of letters, and of its legend for each line [unit]
    real(wp), parameter :: scale = 1.0e4_wp, margin = 60.0_wp, letters = 15.0_wp, line_height = 20.0_wp
@@ -246,7 +247,7 @@ contains
          & fixed_text(letters, 1)//'">'//trim(drawing_kind%mark)//n//'<rect x="'//fixed_text(left, 1)//'" y="'// &
          & fixed_text(top, 1)//'" width="100%" height="100%" fill="white"/>'//n//'<text x="'// &
          & fixed_text(left + 20.0_wp, 1)//'" y="'//fixed_text(top + 30.0_wp, 1)//'" font-weight="bold">'// &
-         & escaped(case%title)//'</text>'//n//body//legend
+         & xml_text(case%title)//'</text>'//n//body//legend
       call add_bar(left + width - 30.0_wp)
       drawing = drawing//'</svg>'//n
 
@@ -311,7 +312,7 @@ contains
       character(len=:), allocatable, intent(inout) :: body
 
       body = body//'<text x="'//fixed_text(scale*place(1), 1)//'" y="'//fixed_text(-scale*place(2), 1)//'" fill="'//colour//'">'// &
-         & escaped(words)//'</text>'//n
+         & xml_text(words)//'</text>'//n
    end subroutine add_text
 
    !> A point in the drawing, whose second coordinate grows downwards.
@@ -333,29 +334,5 @@ contains
 
       words = number_text(angle/degree, 4)//" deg"
    end function degrees
-
-   !> Words as they stand in a drawing.
-   pure function escaped(words) result(text)
-      !> The words
-      character(len=*), intent(in) :: words
-      !> With what has a meaning in XML replaced
-      character(len=:), allocatable :: text
-
-      integer :: i
-
-      text = ""
-      do i = 1, len(words)
-         select case (words(i:i))
-         case ("&")
-            text = text//"&amp;"
-         case ("<")
-            text = text//"&lt;"
-         case (">")
-            text = text//"&gt;"
-         case default
-            text = text//words(i:i)
-         end select
-      end do
-   end function escaped
 
 end module camroller_sketch

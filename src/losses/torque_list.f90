@@ -85,10 +85,7 @@ contains
       ! Places of the losses
       integer, parameter :: losses(*) = pack([(i, i=1, torque_count)], is_loss)
 
-      total = 0.0_wp
-      do i = 1, size(losses)
-         total = total + values(losses(i))
-      end do
+      total = sum(values(losses))
    end function sum_of_losses
 
    !> Torque that drives the camshaft.
@@ -102,10 +99,7 @@ contains
       ! Places of the torques
       integer, parameter :: torques(*) = pack([(i, i=1, torque_count)], is_torque)
 
-      total = 0.0_wp
-      do i = 1, size(torques)
-         total = total + values(torques(i))
-      end do
+      total = sum(values(torques))
    end function sum_of_torques
 
 end module camroller_torque_list

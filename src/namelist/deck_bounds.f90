@@ -9,7 +9,7 @@ module camroller_deck_bounds
    implicit none
    private
 
-   public :: largest_size, is_bounded, say_bounds, write_bounds
+   public :: is_bounded, say_bounds, write_bounds
 
    !> Units that share their bounds, and the bounds
    type :: bounds_t
@@ -49,45 +49,20 @@ module camroller_deck_bounds
 
 contains
 
-   !> Bounds of a unit.
-   pure function bounds_of(unit) result(bounds)
+   !> Smallest magnitude of a number that is not 0, and largest one.
+   pure function sizes_of(unit) result(sizes)
       type(unit_t), intent(in) :: unit
-      !> Its bounds
-      type(bounds_t) :: bounds
+      !> The sizes [the unit]
+      real(wp) :: sizes(2)
 
       integer :: i
 
-      do i = 1, size(known_bounds)
+      do i = 1, size(known_bounds) - 1
          if (unit%suffix == "" .neqv. known_bounds(i)%units == "") cycle
          if (index(" "//known_bounds(i)%units, " "//trim(unit%suffix)//" ") > 0) exit
       end do
-      bounds = known_bounds(min(i, size(known_bounds)))
-   end function bounds_of
-
-   !> Smallest magnitude of a number that is not 0.
-   pure function smallest_size(unit) result(smallest)
-      type(unit_t), intent(in) :: unit
-      !> The size [the unit]
-      real(wp) :: smallest
-
-      type(bounds_t) :: bounds
-
-      bounds = bounds_of(unit)
-      smallest = bounds%smallest*unit%denominator/unit%numerator
-   end function smallest_size
-
-   !> Largest magnitude of a number.
-   pure function largest_size(unit) result(largest)
-      !> Its unit
-      type(unit_t), intent(in) :: unit
-      !> The size [the unit]
-      real(wp) :: largest
-
-      type(bounds_t) :: bounds
-
-      bounds = bounds_of(unit)
-      largest = bounds%largest*unit%denominator/unit%numerator
-   end function largest_size
+      sizes = [known_bounds(i)%smallest, known_bounds(i)%largest]*unit%denominator/unit%numerator
+   end function sizes_of
 
    !> Is a number 0, or its magnitude within the bounds of its unit? They are met but for round-off of the unit's factor.
    elemental function is_bounded(number, unit) result(verdict)
@@ -100,8 +75,10 @@ contains
 
       real(wp), parameter :: round_off = 1.0e-12_wp ! [-]
 
-      verdict = .not. abs(number) > 0.0_wp .or. (abs(number) >= smallest_size(unit)*(1.0_wp - round_off) .and. &
-         & abs(number) <= largest_size(unit)*(1.0_wp + round_off))
+      associate (sizes => sizes_of(unit))
+         verdict = .not. abs(number) > 0.0_wp .or. (abs(number) >= sizes(1)*(1.0_wp - round_off) .and. &
+            & abs(number) <= sizes(2)*(1.0_wp + round_off))
+      end associate
    end function is_bounded
 
    !> The bounds of a unit in words.
@@ -113,10 +90,11 @@ contains
       !> The words
       character(len=:), allocatable, intent(out) :: words
 
-      words = number_text(largest_size(unit), digits)//" or less"
-      if (smallest_size(unit) > 0.0_wp) words = "from "//number_text(smallest_size(unit), digits)//" to "// &
-         & number_text(largest_size(unit), digits)
-      if (smallest_size(unit) > 0.0_wp .and. takes_zero) words = "0, or "//words
+      associate (sizes => sizes_of(unit))
+         words = number_text(sizes(2), digits)//" or less"
+         if (sizes(1) > 0.0_wp) words = "from "//number_text(sizes(1), digits)//" to "//number_text(sizes(2), digits)
+         if (sizes(1) > 0.0_wp .and. takes_zero) words = "0, or "//words
+      end associate
       if (takes_negative) words = words//" in size"
    end subroutine say_bounds
 
@@ -128,6 +106,7 @@ contains
       character(len=*), parameter :: n = new_line("a")
       type(bounds_t) :: bounds
       type(unit_t) :: unit
+      real(wp) :: sizes(2) ! [the unit]
       logical :: is_known
       integer :: i
 
@@ -137,8 +116,9 @@ contains
       do i = 1, size(known_bounds)
          bounds = known_bounds(i)
          call find_unit(bounds%units(:max(0, scan(bounds%units, " ") - 1)), unit, is_known)
+         sizes = sizes_of(unit)
          text = text//"| "//trim(bounds%quantity)//" | "//trim(merge("-         ", unit%symbol(:10), unit%symbol == "1"))// &
-            & " | "//number_text(smallest_size(unit), digits)//" | "//number_text(largest_size(unit), digits)//" |"//n
+            & " | "//number_text(sizes(1), digits)//" | "//number_text(sizes(2), digits)//" |"//n
       end do
    end subroutine write_bounds
 

@@ -78,7 +78,7 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       integer :: positions(size(deck%groups))
-      integer :: i
+      integer :: i, meant
       character(len=:), allocatable :: words
 
       do i = 1, size(deck%groups)
@@ -88,7 +88,9 @@ contains
                call advise(group%name, group_names(schema), "known are ", words)
                call add_mistake(mistakes, "unknown group &"//shown(group%name)//words, group%line, group%column, &
                   & len(group%name) + 1)
-               call excuse_group(schema, nearest_name(group%name, group_names(schema)), settings)
+               ! A group that is there under a misspelt name is not asked for
+               meant = find_group(schema, nearest_name(group%name, group_names(schema)))
+               if (meant > 0) settings%groups(meant)%is_misspelt = .true.
             else
                settings%groups(positions(i))%is_present = .true.
                settings%groups(positions(i))%line = group%line
@@ -104,19 +106,6 @@ contains
          end associate
       end do
    end subroutine match_deck
-
-   !> Do not ask for a group that is there under a misspelt name.
-   pure subroutine excuse_group(schema, name, settings)
-      type(schema_t), intent(in) :: schema
-      !> Name of the group; blank for none
-      character(len=*), intent(in) :: name
-      type(settings_t), intent(inout) :: settings
-
-      integer :: group
-
-      group = find_group(schema, name)
-      if (group > 0) settings%groups(group)%is_misspelt = .true.
-   end subroutine excuse_group
 
    !> Take one key.
    subroutine match_key(schema, assignment, group, settings, mistakes)

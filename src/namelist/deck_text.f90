@@ -134,7 +134,8 @@ contains
          else if (line(position:position) == "&") then
             call open_group(line, position, last, reader, deck, mistakes)
          else if (.not. is_open(reader)) then
-            call complain_outside(line, position, reader, mistakes)
+            call add_mistake(mistakes, "text outside of a group; a group begins with '&name', a comment with '!', and "// &
+               & "include = 'file' stands on a line of its own", reader%line, position, len_trim(line) - position + 1)
             return
          else if (line(position:position) == "/") then
             if (reader%group > 0) deck%groups(reader%group)%last_line = reader%line
@@ -150,20 +151,6 @@ contains
          position = last + 1
       end do
    end subroutine read_line
-
-   !> Text where no group is open.
-   subroutine complain_outside(line, position, reader, mistakes)
-      character(len=*), intent(in) :: line
-      !> Where the text begins
-      integer, intent(in) :: position
-      !> State of the reading
-      type(reader_t), intent(in) :: reader
-      !> Mistakes so far
-      type(mistakes_t), intent(inout) :: mistakes
-
-      call add_mistake(mistakes, "text outside of a group; a group begins with '&name', a comment with '!', and "// &
-         & "include = 'file' stands on a line of its own", reader%line, position, len_trim(line) - position + 1)
-   end subroutine complain_outside
 
    !> A group that another group or the end of the deck cuts off.
    subroutine complain_no_end(reader, mistakes)
@@ -413,13 +400,7 @@ contains
       !> The characters
       character(len=*), intent(in) :: piece
 
-      character(len=:), allocatable :: longer
-
-      if (reader%length + len(piece) > len(reader%value)) then
-         allocate (character(len=2*(reader%length + len(piece))) :: longer)
-         longer(:reader%length) = reader%value(:reader%length)
-         call move_alloc(longer, reader%value)
-      end if
+      if (reader%length + len(piece) > len(reader%value)) reader%value = reader%value//repeat(" ", reader%length + 2*len(piece))
       reader%value(reader%length + 1:reader%length + len(piece)) = piece
       reader%length = reader%length + len(piece)
    end subroutine lengthen

@@ -7,7 +7,7 @@ module camroller_deck_values
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp
    use camroller_names, only : index_of_name
-   use camroller_quotes, only : is_quoted
+   use camroller_quotes, only : is_quoted, occurrences
    use camroller_units, only : to_si
    use camroller_number_text, only : integer_text, is_beyond_range
    use camroller_value_syntax, only : count_numbers, is_yes_or_no
@@ -75,7 +75,7 @@ contains
       character(len=:), allocatable, intent(out) :: reason
 
       value%text = trim(adjustl(text))
-      call cut_comma(value%text)
+      if (index(value%text, ",", back=.true.) == max(1, len(value%text))) value%text = trim(value%text(:len(value%text) - 1))
       value%is_known = .false.
       if (len(value%text) == 0) then
          reason = "'"//trim(key%name)//"' has no value"
@@ -100,15 +100,6 @@ contains
       value%is_wrong = allocated(reason)
       value%is_known = .not. value%is_wrong
    end subroutine read_value
-
-   !> Take a comma at the end of a text away, with the blanks before it.
-   pure subroutine cut_comma(text)
-      !> The text, without blanks around it
-      character(len=:), allocatable, intent(inout) :: text
-
-      if (len(text) == 0) return
-      if (text(len(text):) == ",") text = trim(text(:len(text) - 1))
-   end subroutine cut_comma
 
    !> One number or a list of numbers.
    subroutine read_numbers(key, value, reason)
@@ -381,20 +372,9 @@ contains
          call next_word(text, position, first, last)
          if (first == 0) exit
          ! One comma stands between two words, none before the first
-         verdict = verdict .or. commas(text(before:first - 1)) > merge(0, 1, before == 1)
+         verdict = verdict .or. occurrences(text(before:first - 1), ",") > merge(0, 1, before == 1)
       end do
-      verdict = verdict .or. commas(text(before:)) > 0
+      verdict = verdict .or. occurrences(text(before:), ",") > 0
    end function has_empty_place
-
-   !> Number of commas in a text.
-   pure function commas(text) result(number)
-      character(len=*), intent(in) :: text
-      !> Their number
-      integer :: number
-
-      integer :: i
-
-      number = count([(text(i:i) == ",", i=1, len(text))])
-   end function commas
 
 end module camroller_deck_values

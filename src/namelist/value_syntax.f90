@@ -5,6 +5,7 @@
 module camroller_value_syntax
    use camroller_deck_text, only : to_lower
    use camroller_number_text, only : is_number
+   use camroller_quotes, only : occurrences
    implicit none
    private
 
@@ -40,7 +41,7 @@ contains
       do while (verdict)
          first = verify(text(last + 1:), separators) + last
          if (first == last) exit
-         places = places + max(0, number_of_commas(text(last + 1:first - 1)) - merge(1, 0, last > 0))
+         places = places + max(0, occurrences(text(last + 1:first - 1), ",") - merge(1, 0, last > 0))
          last = scan(text(first:), separators)
          last = merge(len(text), first + last - 2, last == 0)
          star = index(text(first:last), "*")
@@ -49,23 +50,9 @@ contains
          places = min(places + repeats, most + 1)
          if (verdict .and. first + star <= last) verdict = is_value(text(first + star:last), is_whole)
       end do
-      places = min(places + number_of_commas(text(last + 1:)), most + 1)
+      places = min(places + occurrences(text(last + 1:), ","), most + 1)
       if (.not. verdict) places = -1
    end function count_numbers
-
-   !> Number of commas in a text.
-   pure function number_of_commas(text) result(commas)
-      character(len=*), intent(in) :: text
-      !> Their number
-      integer :: commas
-
-      integer :: i
-
-      commas = 0
-      do i = 1, len(text)
-         if (text(i:i) == ",") commas = commas + 1
-      end do
-   end function number_of_commas
 
    !> How often a value is repeated.
    pure subroutine read_repeats(word, most, repeats, is_right)

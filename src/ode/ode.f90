@@ -177,17 +177,6 @@ contains
       end do
    end subroutine integrate_segment
 
-   !> May bridges take the place of a method's steps?
-   pure function may_bridge(method, options) result(verdict)
-      class(method_t), intent(in) :: method
-      !> Tolerance or step
-      type(options_t), intent(in) :: options
-      !> May they?
-      logical :: verdict
-
-      verdict = method%needs_jacobian .and. .not. is_fixed(method, options)
-   end function may_bridge
-
    !> Go on by a bridge where the method gets nowhere, if there is one.
    subroutine cross(problem, method, options, walk, trajectory, counters, was_crossed)
       class(problem_t), intent(in) :: problem
@@ -209,7 +198,7 @@ contains
       integer :: status
 
       was_crossed = .false.
-      if (.not. may_bridge(method, options)) return
+      if (is_fixed(method, options) .or. .not. method%needs_jacobian) return
       associate (step => walk%step, footing => walk%footing)
          call watch(footing, step%time, step%length)
          if (.not. is_stuck(method%here, step%time, step%length, method%tolerance, footing)) then

@@ -16,6 +16,7 @@ module camroller_export
    use camroller_number_text, only : integer_text, write_number, number_length
    use camroller_output_file, only : not_computed
    use camroller_output_kind, only : table_kind
+   use camroller_quotes, only : replaced
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t
    use camroller_result_columns, only : head_column, make_columns, open_result, read_column, table_t
    use camroller_streams, only : print_text
@@ -99,7 +100,9 @@ contains
       do i = 1, size(names)
          names(i) = table%names(i)%text
          if (what == export_series .and. names(i) == "cam_angle") places = [places, i]
-         if (what == export_summary .and. (i == 1 .or. is_swept_key(names(i)))) places = [places, i]
+         ! Beside the number of the case keys that are swept
+         if (what /= export_summary) cycle
+         if (i == 1 .or. (index(names(i), ".") > 0 .and. index(names(i), measured_prefix) /= 1)) places = [places, i]
       end do
       first = 1
       do while (first <= len_trim(wanted))
@@ -122,16 +125,6 @@ contains
       table%words = table%words(:, places)
       table%has_words = table%has_words(places)
    end subroutine choose_columns
-
-   !> Is a column of a summary a key that varies?
-   pure function is_swept_key(name) result(verdict)
-      !> Name of the column
-      character(len=*), intent(in) :: name
-      !> Is it?
-      logical :: verdict
-
-      verdict = index(name, ".") > 0 .and. index(name, measured_prefix) /= 1
-   end function is_swept_key
 
    !> Series of one case.
    subroutine read_series(file, cases, case, table, error)
@@ -430,18 +423,8 @@ contains
       !> The word as it stands in the table
       character(len=:), allocatable :: text
 
-      integer :: i
-
-      if (scan(word, ","""//new_line("a")) == 0) then
-         text = word
-         return
-      end if
-      text = """"
-      do i = 1, len(word)
-         if (word(i:i) == """") text = text//""""
-         text = text//word(i:i)
-      end do
-      text = text//""""
+      text = word
+      if (scan(word, ","""//new_line("a")) > 0) text = """"//replaced(word, """", """""")//""""
    end function quoted
 
 end module camroller_export

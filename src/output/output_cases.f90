@@ -72,8 +72,12 @@ contains
 
       writer%status(position) = status
       if (.not. allocated(writer%summary)) return
-      call start_row(writer, position, error)
-      if (allocated(error)) return
+      if (position /= writer%first + writer%gathered) then
+         call write_rows(writer, error)
+         if (allocated(error)) return
+         writer%first = position
+      end if
+      writer%gathered = writer%gathered + 1
       if (size(writer%rows) > 0 .and. size(series) > 0) then
          writer%rows(:, writer%gathered, :) = series
       else if (size(writer%rows) > 0) then
@@ -84,35 +88,8 @@ contains
       else
          writer%scalars(writer%gathered, :) = not_a_number()
       end if
-      call end_row(writer, position, error)
-   end subroutine gather_row
-
-   !> Begin a row.
-   subroutine start_row(writer, position, error)
-      type(output_t), intent(inout) :: writer
-      !> Position of the case, from 1
-      integer, intent(in) :: position
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      if (position /= writer%first + writer%gathered) then
-         call write_rows(writer, error)
-         if (allocated(error)) return
-         writer%first = position
-      end if
-      writer%gathered = writer%gathered + 1
-   end subroutine start_row
-
-   !> End a row; a full block is written.
-   subroutine end_row(writer, position, error)
-      type(output_t), intent(inout) :: writer
-      !> Position of the case, from 1
-      integer, intent(in) :: position
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
       if (writer%gathered == writer%block .or. modulo(position, writer%block) == 0) call write_rows(writer, error)
-   end subroutine end_row
+   end subroutine gather_row
 
    !> Write the series of one of few cases that have some.
    subroutine write_series_row(writer, position, series, error)

@@ -193,7 +193,7 @@ contains
             if (allocated(error)) return
             values(i) = worse_of(shown(i)%statistic, values(i), other)
             if (lobe == 2 .and. worst /= "") worst = worst//", "
-            if (lobe == 2) worst = worst//heading_of(shown(i))
+            if (lobe == 2) worst = worst//trim(shown(i)%heading(:index(shown(i)%heading//"[", "[") - 1))
             lobe = lobe + 1
          end do
          values(i) = shown(i)%factor*values(i)
@@ -210,14 +210,5 @@ contains
 
       name = trim(column%statistic)//trim(lobe_prefix(lobe))//trim(column%series)
    end function name_of
-
-   !> Heading of a column without its unit.
-   pure function heading_of(column) result(heading)
-      type(column_t), intent(in) :: column
-      !> The heading
-      character(len=len_trim(column%heading(:index(column%heading//"[", "[") - 1))) :: heading
-
-      heading = column%heading
-   end function heading_of
 
 end module camroller_laws_page

@@ -43,28 +43,18 @@ contains
       if (allocated(joints%pivot)) coefficients(3) = joints%pivot%law%coefficient
       do i = 1, size(curve_groups)
          associate (curve => statistics%joints%curves(i))
-            if (part_left(curve) < least_part) call tell_spent(trim(curve_groups(i)), 100.0_wp*curve%spent_share, &
-               & part_left(curve)*coefficients(i), remarks)
+            ! Stribeck's curve without a viscous part has left nothing of a joint's friction
+            if (part_left(curve) < least_part) call add_remark(remarks, spent_friction, "friction of &"// &
+               & trim(curve_groups(i))//" has fallen to next to nothing: for "//number_text(100.0_wp*curve%spent_share, 3)// &
+               & " % of the cycle less than "//number_text(least_part, 1)//" of it is left, and its coefficient is "// &
+               & number_text(part_left(curve)*coefficients(i), 2)//" on average over the sliding, where films between "// &
+               & "sliding surfaces have 0.005 to 0.06; "//trim(curve_groups(i))//".viscous_part_s_m gives that of the "// &
+               & "film, which is left out", 100.0_wp*curve%spent_share)
          end associate
       end do
       if (allocated(joints%seal)) call judge_seal(joints, viscosity, statistics%joints%drag_power, &
          & speed*sum(statistics%torques, mask=is_loss), remarks)
    end subroutine judge_joints
-
-   !> Say that Stribeck's curve without a viscous part has left nothing of a joint's friction.
-   subroutine tell_spent(group, share, coefficient, remarks)
-      !> Group of the joint
-      character(len=*), intent(in) :: group
-      !> Part of the cycle in which nothing is left [%], mean coefficient while it slides [-]
-      real(wp), intent(in) :: share, coefficient
-      !> Remarks so far
-      type(remark_t), allocatable, intent(inout) :: remarks(:)
-
-      call add_remark(remarks, spent_friction, "friction of &"//group//" has fallen to next to nothing: for "// &
-         & number_text(share, 3)//" % of the cycle less than "//number_text(least_part, 1)//" of it is left, and its "// &
-         & "coefficient is "//number_text(coefficient, 2)//" on average over the sliding, where films between sliding "// &
-         & "surfaces have 0.005 to 0.06; "//group//".viscous_part_s_m gives that of the film, which is left out", share)
-   end subroutine tell_spent
 
    !> Say that a notable part of the friction is the drag of a seal in oil far more viscous than the one that it is given for.
    subroutine judge_seal(joints, viscosity, power, losses, remarks)

@@ -256,8 +256,8 @@ contains
          call add(list, "friction_boundary_mobilised", "N", "boundary friction mobilised by slip", "asperity", &
             & state%contact%boundary_mobilised, least=least_force)
       end if
-      if (has_rolling(case)) call add(list, "friction_rolling", "N", "rolling resistance of each surface", "traction", &
-         & state%contact%rolling_resistance)
+      if (case%traction%rolling_law /= rolling_law_names(rolling_none)) call add(list, "friction_rolling", "N", &
+         & "rolling resistance of each surface", "traction", state%contact%rolling_resistance)
       call add(list, "traction", "N", "tangential force that drives the roller", "traction", state%contact%traction)
       call add(list, "friction_contact", "N", "friction of the contact: shear, boundary and rolling", "traction", &
          & state%contact_friction)
@@ -456,15 +456,6 @@ contains
       model%modulus = 1.0_wp
       model%roller_radius = 1.0_wp
    end subroutine set_blank
-
-   !> Does the case have rolling resistance?
-   pure function has_rolling(case) result(has)
-      type(case_t), intent(in) :: case
-      !> True where a law is chosen
-      logical :: has
-
-      has = case%traction%rolling_law /= rolling_law_names(rolling_none)
-   end function has_rolling
 
    !> Quotient, zero where the denominator is zero.
    elemental function ratio(numerator, denominator) result(quotient)

@@ -11,7 +11,7 @@ module camroller_turn_scatter
    public :: scatter_error
 
    !> Parts of the turns: of 40, each has as many as the longest period that is looked for
-   integer, parameter, public :: parts = 5
+   integer, parameter :: parts = 5
    !> Distance that 95 of 100 means keep from what they estimate, over the standard deviation that the parts tell of: Student's
    !> distribution for as many parts less one [-]
    real(wp), parameter :: student = 2.776445_wp

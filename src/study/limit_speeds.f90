@@ -196,23 +196,14 @@ contains
          if (search%above(limit) <= search%highest .and. search%above(limit) - search%below(limit) > width) return
       end do
       ! The scan goes on from the highest speed that is below a limit
-      speed = maxval(search%below, mask=.not. search%above <= search%highest .and. applies(search))
+      speed = maxval(search%below, mask=.not. search%above <= search%highest .and. (search%has_adjuster .or. &
+         & [(limit, limit=1, limit_count)] /= adjuster_limit))
       if (speed < search%highest .and. speed >= 0.0_wp) then
          speed = min(search%step*(nint(speed/search%step) + 1), search%highest)
       else
          speed = 0.0_wp
       end if
    end function next_speed
-
-   !> Which limits a flexible train can have.
-   pure function applies(search) result(can)
-      type(limits_t), intent(in) :: search
-      !> One for each limit
-      logical :: can(limit_count)
-
-      can = .true.
-      can(adjuster_limit) = search%has_adjuster
-   end function applies
 
    !> What the train does at a speed.
    subroutine judge_speed(search, speed, is_passed, period, remarks, error)

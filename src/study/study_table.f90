@@ -55,19 +55,15 @@ contains
       !> Name, unit, meaning, part of the program
       character(len=*), intent(in) :: name, unit, description, source
 
-      type(quantity_t), allocatable :: more(:)
-      integer :: n
+      type(quantity_t) :: new
 
-      n = 0
-      if (allocated(columns)) n = size(columns)
-      allocate (more(n + 1))
-      if (n > 0) more(:n) = columns
       ! Component by component: a constructor with components of deferred length leaves memory behind in gfortran 12
-      more(n + 1)%name = trim(name)
-      more(n + 1)%unit = unit
-      more(n + 1)%description = description
-      more(n + 1)%source = source
-      call move_alloc(more, columns)
+      new%name = trim(name)
+      new%unit = unit
+      new%description = description
+      new%source = source
+      if (.not. allocated(columns)) allocate (columns(0))
+      columns = [columns, new]
    end subroutine add_column
 
    !> Append a row without words and numbers.
