@@ -56,7 +56,7 @@ def test_a_mistake_is_printed_by_one_process(tmp_path):
 def test_results_survive_a_process_that_dies(tmp_path):
     """The others end with it; what all of them had done is gone on with by another number of processes, and by the program
     without MPI."""
-    deck = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 1500"))
+    deck = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 500"))
     done(str(SERIAL), "sweep", deck, "-o", "reference.h5", "--quiet", folder=tmp_path)
     sweep = subprocess.Popen([*by(4), "sweep", str(deck)], cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE)

@@ -209,7 +209,7 @@ contains
       do i = 1, size(cases)
          cases(i)%numerics%method = "rodas5p"
          cases(i)%numerics%tolerance = 1.0e-10_wp
-         cases(i)%numerics%output_step = 0.05_wp*degree
+         cases(i)%numerics%output_step = 0.1_wp*degree
          call run_trial(cases(i), 1, reference)
          do method = 1, size(methods)
             do power = 3, 6

@@ -17,6 +17,7 @@ module test_flexible_running_in
    use flexible_cases, only : add_dynamics, stiff_case
    use reference_cases, only : make_model, set_point, thesis_case
    use closeness, only : expect_error, has_failed
+   use run_settings, only : has_checks
    implicit none
    private
 
@@ -50,10 +51,11 @@ contains
    end subroutine add_hours
 
    !> Angles so close that straight lines between them err by next to nothing, sorted by the place where the roller is then: at
-   !> 900 rev/min, and where contacts open and two turns make a period.
+   !> 900 rev/min, and where contacts open and two turns make a period; with run-time checks the second alone, which is all of the
+   !> first for each turn.
    subroutine test_places(error)
       type(error_type), allocatable, intent(out) :: error
-      integer, parameter :: angles = 20000
+      integer, parameter :: angles = 10000
       type(case_t) :: the_case
       type(model_t) :: model, fresh
       type(cycle_t) :: cycle
@@ -68,14 +70,14 @@ contains
       character(len=:), allocatable :: words
       integer :: number, turn, i, k
 
-      do number = 1, 2
+      do number = merge(2, 1, has_checks()), 2
          call get_deck_case("decks/tribofilm.nml", the_case, failure)
          if (has_failed(failure, error)) return
          deallocate (the_case%wear, the_case%tribofilm, the_case%running_in)
          the_case%operating_point%speed = merge(900.0_wp, 3140.0_wp, number == 1)*pi/30.0_wp
          call add_dynamics(the_case, merge(5, 2, number == 1), .false.)
          call add_hours(the_case)
-         the_case%numerics%tolerance = 1.0e-5_wp
+         the_case%numerics%tolerance = merge(1.0e-4_wp, 1.0e-5_wp, number == 1)
          call make_model(the_case, model, error)
          if (allocated(error)) return
          fresh = model
@@ -98,7 +100,7 @@ contains
          depths = found(:, 3)*the_case%running_in%duration
          words = number_text(maxval(abs(model%surface%cam_film - films))/maxval(films), 3)//", "// &
             & number_text(maxval(abs(model%surface%cam_wear - depths))/maxval(depths), 3)
-         ! Tolerances of 1e-5, of which large loads of contacts that open make 4e-4
+         ! Tolerances of 1e-4, which make 7e-4, and of 1e-5, of which large loads of contacts that open make 4e-4
          call check(error, all(abs(model%surface%cam_film - films) < 1.0e-3_wp*maxval(films)) .and. &
             & all(abs(model%surface%cam_wear - depths) < 1.0e-3_wp*maxval(depths)), words)
          if (allocated(error)) return

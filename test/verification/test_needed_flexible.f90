@@ -26,7 +26,7 @@ module test_needed_flexible
    public :: collect_needed_flexible
 
    !> Trains of a test run with and without run-time checks, and the number of the first, which has estimates
-   integer, parameter :: usual_cases = 3, few_cases = 1, usual_seed = 3
+   integer, parameter :: usual_cases = 2, few_cases = 1, usual_seed = 3
 
 contains
 

@@ -231,7 +231,7 @@ contains
    subroutine test_units(error)
       type(error_type), allocatable, intent(out) :: error
       ! Cases with and without run-time checks; decks that are drawn for each at most
-      integer, parameter :: usual = 40, few = 4, most_tries = 5
+      integer, parameter :: usual = 20, few = 4, most_tries = 5
       ! Numbers agree to the last bit but where a power is not one of two: then rounding takes other steps, whose errors are within
       ! what is promised. A series follows the slip and is off by what the slip's error makes of it, which is what the estimate for
       ! extremes tells: the error of the slip alone says nothing of a force that grows steeply with it

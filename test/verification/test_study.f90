@@ -213,7 +213,7 @@ contains
       character(len=:), allocatable :: dials(:)
 
       the_case = thesis_case()
-      the_case%operating_point%speed = 40.0_wp
+      the_case%operating_point%speed = 150.0_wp
       call new_study_table(table)
       call study_case(table, 1, the_case, 1, .true., failure)
       call check(error, .not. allocated(failure))

@@ -4,7 +4,7 @@ module wide_draft
    use camroller_deck_schema, only : key_t
    use camroller_number_text, only : integer_text
    use random_decks, only : random_t, draw
-   use wide_words, only : deck_word
+   use wide_words, only : deck_group, deck_word
    implicit none
    private
 
@@ -170,7 +170,8 @@ contains
       character(len=*), intent(in) :: text
       logical :: needs_table
 
-      needs_table = index(text, "&asperity") > 0 .and. deck_word(text, "asperity", "boundary_coefficient") == ""
+      needs_table = deck_word(text, "asperity", "boundary_coefficient") == ""
+      if (needs_table) needs_table = deck_group(text, "asperity") /= ""
    end function needs_table
 
    !> Numbers that other keys hang on; blank for others.

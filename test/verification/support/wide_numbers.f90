@@ -222,14 +222,17 @@ contains
 
       character(len=*), parameter :: joints(*) = [character(len=16) :: &
          & "valve_tip.", "stem_seal.", "guide_side_load.", "finger_pivot."]
-      character(len=:), allocatable :: alike
+      ! The name as it stands in the list, and as one of a joint or of what is second to something else
+      character(len=len(usual%name)) :: given, alike
 
+      given = name
       alike = name
+      if (index(name, "second_") == 1) alike = name(8:)
       do i = 1, size(joints)
          if (index(name, trim(joints(i))) == 1) alike = "joint."//name(len_trim(joints(i)) + 1:)
       end do
       do i = 1, size(usual)
-         is_known = any(usual(i)%name == [character(len=len(usual%name)) :: name, alike]) .or. "second_"//usual(i)%name == name
+         is_known = usual(i)%name == given .or. usual(i)%name == alike
          if (is_known) range = usual(i)
          if (is_known) return
       end do

@@ -32,10 +32,11 @@ contains
       type(lift_t) :: shape
       type(lift_law_t) :: law
       type(error_t), allocatable :: error
-      ! [-]; lift [m]; step, angle [deg]; noise [m]
-      real(wp) :: number, lift(0:3), step, angle, noise
+      ! [-]; lift [m]; step, angle, place of the nose [deg]; noise, what the table counts lifts from [m]
+      real(wp) :: number, lift(0:3), step, angle, nose, noise, base
       integer :: i, rows, rest
       character(len=:), allocatable :: kind
+      type(unit_t) :: unit
 
       table%path = group//".txt"
       call draw(random, number)
@@ -51,6 +52,10 @@ contains
       rest = int(between(0.0_wp, most_rest + 1.0_wp))
       step = (shape%opening_half_angle + shape%closing_half_angle)/degree/rows
       rows = rows + 2*rest
+      nose = nose_of(text, group)
+      base = 0.0_wp
+      if (kind == "cam_contour") base = base_radius(text)
+      unit = unit_of(text, group, "table_unit", "mm")
       allocate (table%x(0), table%y(0))
       do i = 0, rows
          angle = -shape%opening_half_angle/degree + (i - rest)*step
@@ -58,9 +63,8 @@ contains
          lift = 0.0_wp
          if (i > rest .and. i < rows - rest) call evaluate_lift(law, angle*degree, lift)
          if (i > rest .and. i < rows - rest) lift(0) = max(0.0_wp, lift(0) + between(-1.0_wp, 1.0_wp)*min(noise, 0.1_wp*lift(0)))
-         table%x = [table%x, nose_of(text, group) + angle]
-         if (kind == "cam_contour") lift(0) = lift(0) + base_radius(text)
-         table%y = [table%y, from_si(unit_of(text, group, "table_unit", "mm"), lift(0))]
+         table%x = [table%x, nose + angle]
+         table%y = [table%y, from_si(unit, lift(0) + base)]
       end do
       table%line = [(i, i=1, size(table%x))]
 
@@ -92,6 +96,7 @@ contains
       ! [-]; height, level [Pa]; place, width, angle, distance [deg]
       real(wp) :: numbers(6), height, level, place, width, angle, distance
       integer :: i, count
+      type(unit_t) :: unit
 
       table%path = "gas_force.txt"
       do i = 1, size(numbers)
@@ -102,13 +107,13 @@ contains
       level = 1.0e5_wp*(numbers(3) - 0.5_wp)
       place = 360.0_wp*numbers(4)
       width = 12.0_wp + 40.0_wp*numbers(5)
+      unit = unit_of(text, "gas_force", "pressure_unit", "bar")
       allocate (table%x(0), table%y(0))
       do i = 0, count - merge(1, 0, numbers(6) < 0.5_wp)
          angle = i*360.0_wp/count
          distance = modulo(angle - place + 180.0_wp, 360.0_wp) - 180.0_wp
          table%x = [table%x, angle]
-         table%y = [table%y, from_si(unit_of(text, "gas_force", "pressure_unit", "bar"), level &
-            & + height/(1.0_wp + (distance/width)**2))]
+         table%y = [table%y, from_si(unit, level + height/(1.0_wp + (distance/width)**2))]
       end do
       if (numbers(6) >= 0.5_wp) table%y(size(table%y)) = table%y(1)
       table%line = [(i, i=1, size(table%x))]
