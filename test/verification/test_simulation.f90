@@ -288,13 +288,13 @@ contains
       call check(error, at_rest > 36, "the roller should stick for half of the turn or more")
    end subroutine test_sticking
 
-   !> Steps of a hundredth of a degree and of one ten-thousandth from the same places: the errors of the spin at both ends are
-   !> nearly the same one. Two that have nothing in common would make 100 times the estimate of the shorter step; what earlier steps
-   !> have left counts up to three times in it.
+   !> Steps of a thousandth of a degree and of a hundredth of that from the same places: hardly anything decays in them, and the
+   !> errors of the spin at both ends are nearly the same one. Two that have nothing in common would make 100 times the estimate of
+   !> the shorter step; what earlier steps have left counts up to three times in it.
    subroutine test_short_estimate(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: places = 24
-      real(wp), parameter :: steps(2) = [1.0e-2_wp, 1.0e-4_wp]*degree
+      real(wp), parameter :: steps(2) = [1.0e-3_wp, 1.0e-5_wp]*degree
       type(simulation_t) :: simulation, trial
       type(outcome_t) :: outcome, outcomes(2)
       type(case_t) :: the_case
