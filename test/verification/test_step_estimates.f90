@@ -84,7 +84,7 @@ contains
       end do
       if (trouble /= "") call test_failed(error, trouble)
       if (allocated(error)) return
-      call check(error, minval(tallies%steps) > 300, "hardly any steps were taken")
+      call check(error, minval(tallies%steps) > 1000/every, "hardly any steps were taken")
       if (allocated(error)) return
       call check(error, sum(tallies%above) <= most_above*sum(tallies%steps), "too many errors are above their estimates")
    end subroutine test_estimates
