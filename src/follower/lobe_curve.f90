@@ -307,11 +307,13 @@ contains
       !> The values [unit of each]
       real(wp), intent(out) :: values(curve_values)
 
-      integer :: i
+      integer :: i, point
 
       do i = 1, curve_values
-         values(i) = 0.0_wp + points(i, 1)*s(1) + points(i, 2)*s(2) + points(i, 3)*s(3) + points(i, 4)*s(4) + points(i, 5)*s(5) &
-            & + points(i, 6)*s(6) + points(i, 7)*s(7)
+         values(i) = 0.0_wp
+         do point = 1, panel_points
+            values(i) = values(i) + points(i, point)*s(point)
+         end do
       end do
    end subroutine interpolate
 
