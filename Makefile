@@ -241,7 +241,7 @@ range-ehl: commit ## steady contacts over the whole range: NODES=1025, every STR
 bench-batch: build mpi ## cases per second, scaling, cost as a study grows: bench/tables/throughput.txt (ten minutes, idle machine)
 	@$(PYTHON) bench/throughput.py
 
-bench-cases: counted ## where the instructions of a case go: bench/tables/case_cost.txt (twenty minutes, valgrind)
+bench-cases: counted ## where the instructions of a case go: bench/tables/case_cost.txt (two minutes, valgrind)
 	@$(PYTHON) bench/case_cost.py build/counted/bin/camroller bench/tables/case_cost.txt build/bench/cases
 
 bench-effects: counted ## instruction counts of effects, present and absent: bench/tables/effects.txt (ten minutes)
